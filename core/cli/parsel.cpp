@@ -1,0 +1,124 @@
+// The `parsel` command-line tool: finds the command, parses its options, runs it.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/cli/command.h"
+
+namespace parsel::cli {
+
+std::string Arguments::option(const std::string& name, const std::string& otherwise) const {
+  const auto [first, last] = options.equal_range(name);
+  return first == last ? otherwise : std::prev(last)->second;
+}
+
+int refuse(const Error& error) {
+  std::cerr << error.message() << '\n';
+  return exit_refused;
+}
+
+int misuse(std::string_view message) {
+  std::cerr << "parsel: " << message << " (parsel --help lists the commands)\n";
+  return exit_usage;
+}
+
+Result<std::string> read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return Error{"cli", path, "the file cannot be opened", "check the path and its permissions"};
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  if (!file.good() && !file.eof()) return Error{"cli", path, "reading failed", "check that it is a file, not a folder"};
+  return std::move(bytes).str();
+}
+
+Status write_file(const std::string& path, std::string_view bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) return Error{"cli", path, "the file cannot be written", "check that the folder exists and has space"};
+  return success();
+}
+
+int write_json(const Arguments& arguments, const nlohmann::json& json) {
+  // Names are untrusted bytes: what is not UTF-8 is replaced, never thrown about.
+  const std::string text = json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  if (!arguments.has("-o")) {
+    std::cout << text;
+    return std::cout.flush() ? exit_done : exit_refused;
+  }
+  const Status written = write_file(arguments.option("-o"), text);
+  return written.ok() ? exit_done : refuse(written.error());
+}
+
+namespace {
+
+void print_help(std::ostream& out) {
+  out << "parsel " PARSEL_VERSION ": parameterized shape editing with language\n\nUsage:\n";
+  for (const Command& command : commands()) {
+    out << "  parsel " << command.name << ' ' << command.usage << "\n      " << command.summary << '\n';
+  }
+  out << "  parsel --help | --version\n\n"
+         "Results go to stdout as JSON unless -o names a file; messages go to stderr.\n"
+         "Exit code 0: done; 1: the input was refused, with stage, place, cause and fix; 2: wrong usage.\n";
+}
+
+bool contains(const std::vector<std::string_view>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+int run(int argc, char** argv) {
+  if (argc < 2) {
+    print_help(std::cerr);
+    return exit_usage;
+  }
+  const std::string_view name = argv[1];
+  if (name == "--help" || name == "-h") {
+    print_help(std::cout);
+    return exit_done;
+  }
+  if (name == "--version") {
+    std::cout << "parsel " PARSEL_VERSION "\n";
+    return exit_done;
+  }
+  const auto all = commands();
+  const auto command = std::find_if(all.begin(), all.end(), [&](const Command& c) { return c.name == name; });
+  if (command == all.end()) return misuse("there is no command '" + std::string(name) + "'");
+
+  Arguments arguments;
+  for (int i = 2; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--help") {
+      std::cout << "Usage: parsel " << command->name << ' ' << command->usage << "\n  " << command->summary << '\n';
+      return exit_done;
+    }
+    if (argument.size() < 2 || argument[0] != '-') {
+      arguments.positional.push_back(argument);
+    } else if (contains(command->flags, argument)) {
+      arguments.options.emplace(argument, "");
+    } else if (!contains(command->value_options, argument)) {
+      return misuse(std::string(name) + " has no option " + argument);
+    } else if (i + 1 == argc) {
+      return misuse(argument + " needs a value");
+    } else {
+      arguments.options.emplace(argument, argv[++i]);
+    }
+  }
+  return command->run(arguments);
+}
+
+}  // namespace
+}  // namespace parsel::cli
+
+int main(int argc, char** argv) {
+  try {
+    return parsel::cli::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return parsel::cli::refuse({"cli", "", "there is not enough memory for this input", "try a smaller model"});
+  } catch (const std::exception& error) {
+    return parsel::cli::refuse({"cli", "", std::string("internal error: ") + error.what(), "please report it"});
+  }
+}

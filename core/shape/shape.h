@@ -1,0 +1,112 @@
+// The structured shape: a graph of parts (hexahedra) and relations. ParSEL §4.1, supplement §3.1.
+//
+// A shape is immutable once built: edits produce states (core/edit/evaluate.h), never change the shape.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/base/index.h"
+#include "core/base/result.h"
+#include "core/shape/hexahedron.h"
+
+namespace parsel {
+
+struct Part {
+  std::string id;      ///< unique, stable: the label with direction words, `leg_front_left`
+  std::string label;   ///< as given in the file, without counters
+  std::string name;    ///< for people: "front left leg"
+  int node = -1;       ///< glTF node index; -1 for a virtual part
+  int primitive = -1;  ///< index of the primitive in the node's mesh; -1 for a virtual part
+  Hexahedron hexahedron;
+  /// For a virtual part: its instances, in the order of the group. Empty for a real part.
+  std::vector<PartIndex> members;
+  /// The translation or rotation relation that this part is an instance of, or (virtual part) stands for.
+  std::optional<RelationIndex> group;
+
+  bool is_virtual() const { return !members.empty(); }
+};
+
+enum class RelationKind { reflection, translation, rotation, point, line, face, volume };
+
+/// parts = {a, b}, mirror images of each other about the plane.
+struct Reflection {
+  Vec3 origin;  ///< a point of the plane
+  Vec3 normal;  ///< unit, a global axis
+  /// Corner k of part b is the mirror image of corner corner_map[k] of part a.
+  std::array<int, 8> corner_map;
+};
+
+/// parts = the instances in order, at equal distances. Over-parameterised (supplement §3.2): start, middle (their
+/// mean), end, count (number of parts), delta = (end - start) / (count - 1). The points are tied to the virtual parent
+/// by their local coordinates in it.
+struct Translation {
+  PartIndex parent;  ///< the virtual part
+  Vec3 start, end;   ///< centres of the first and the last instance
+  int axis;          ///< local axis of the parent that delta is most along
+  int direction;     ///< 1 when delta points along +axis, else -1
+};
+
+/// parts = the instances in order of angle, a closed loop: instance k is instance 0 turned by k · 2π/count.
+struct Rotation {
+  PartIndex parent;  ///< the virtual part
+  Vec3 centre;       ///< on the axis, at the height of the instances' centres
+  Vec3 axis;         ///< unit
+  int parent_axis;   ///< local axis of the parent that `axis` is along
+  double radius;     ///< distance of the instances' centres from the axis
+};
+
+/// parts = {a, b}; the same points seen from both.
+struct Attachment {
+  std::vector<Vec3> points;   ///< 1, 2, 4 or 8 at rest, in the normalised frame
+  std::vector<Vec3> local_a;  ///< the same in local coordinates of part a
+  std::vector<Vec3> local_b;  ///< … and of part b
+};
+
+struct Relation {
+  std::string id;
+  RelationKind kind;
+  std::vector<PartIndex> parts;
+  std::variant<Reflection, Translation, Rotation, Attachment> detail;
+
+  bool is_symmetry() const { return kind <= RelationKind::rotation; }
+  bool is_group() const { return kind == RelationKind::translation || kind == RelationKind::rotation; }
+  bool is_attachment() const { return kind >= RelationKind::point; }
+};
+
+/// Something in the file that was left out or changed, for people to read.
+struct Warning {
+  std::string place;
+  std::string text;
+};
+
+struct Shape {
+  std::string name;
+  std::string sha256;  ///< of the file's bytes, lower-case hex
+  Frame frame;
+  PartData<Part> parts;
+  RelationData<Relation> relations;
+  std::vector<Warning> warnings;
+
+  /// By id, or by "node:<glTF node index>".
+  std::optional<PartIndex> find_part(std::string_view id) const;
+  std::optional<RelationIndex> find_relation(std::string_view id) const;
+};
+
+std::string_view to_string(RelationKind kind);
+std::optional<RelationKind> relation_kind(std::string_view text);
+
+/// Finite numbers, unique ids, non-inverted hexahedra, members and groups that point at each other, relations that hold
+/// at rest. Returns the first thing that is wrong.
+Status validate(const Shape& shape);
+
+/// Format `parsel/shape` v1.
+nlohmann::json to_json(const Shape& shape);
+Result<Shape> shape_from_json(const nlohmann::json& json);
+
+}  // namespace parsel
