@@ -1,0 +1,19 @@
+import { render } from 'preact';
+import { App } from './ui/App';
+import { detectSupport, missingSupport } from './ui/support';
+
+const root = document.getElementById('app');
+if (root === null) throw new Error('index.html has no #app');
+
+const missing = missingSupport(detectSupport());
+render(
+  missing === null ? (
+    <App />
+  ) : (
+    <main class="notice">
+      <h1>ParSEL</h1>
+      <p>{missing}</p>
+    </main>
+  ),
+  root,
+);

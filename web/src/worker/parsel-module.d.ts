@@ -1,0 +1,28 @@
+// The Emscripten loader and the module it loads, built by CMake (wasm/bindings.cpp).
+declare module 'parsel-module/parsel.mjs' {
+  export interface ParselModule {
+    invoke(
+      method: string,
+      parameters: string,
+      buffers: Uint8Array[],
+      progress: ((step: string, done: number, total: number) => void) | null,
+    ): { json: string; buffers: Uint8Array[] };
+    methods(): string[];
+  }
+  export interface ParselModuleOptions {
+    /** Instantiates the module ourselves, from an already compiled WebAssembly.Module. */
+    instantiateWasm?(
+      imports: WebAssembly.Imports,
+      receive: (instance: WebAssembly.Instance) => void,
+    ): WebAssembly.Exports;
+    onAbort?(reason: unknown): void;
+    print?(text: string): void;
+    printErr?(text: string): void;
+  }
+  export default function createModule(options: ParselModuleOptions): Promise<ParselModule>;
+}
+
+declare module 'parsel-module/parsel.wasm?url' {
+  const url: string;
+  export default url;
+}
