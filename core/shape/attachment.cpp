@@ -17,9 +17,7 @@ struct Box {
   Vec3 to_local(const Vec3& p) const { return axes * (p - centre); }
   Vec3 to_world(const Vec3& q) const { return centre + axes.transpose() * q; }
   /// Half extents of the axis-aligned box around it, inflated.
-  Vec3 reach(double inflation) const {
-    return axes.transpose().cwiseAbs() * (half.array() + inflation).matrix();
-  }
+  Vec3 reach(double inflation) const { return axes.transpose().cwiseAbs() * (half.array() + inflation).matrix(); }
   Vec3 centre;
   Mat3 axes;
   Vec3 half;
@@ -147,7 +145,8 @@ Vec3 ContactRegion::mean() const {
 ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const PartMesh& b, const Hexahedron& box_b) {
   const Box first(box_a), second(box_b);
   ContactRegion region;
-  const Vec3 gap = (first.centre - second.centre).cwiseAbs() - first.reach(contact_distance) - second.reach(contact_distance);
+  const Vec3 gap =
+      (first.centre - second.centre).cwiseAbs() - first.reach(contact_distance) - second.reach(contact_distance);
   if (gap.maxCoeff() > 0) return region;
   clip_surface(a, second, region);
   clip_surface(b, first, region);
@@ -163,7 +162,8 @@ bool contains(const Hexahedron& outer, const Hexahedron& inner) {
   return true;
 }
 
-FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRegion& region, bool a_in_b, bool b_in_a) {
+FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRegion& region, bool a_in_b,
+                       bool b_in_a) {
   const Box box_a(a), box_b(b);
   const bool a_smaller = a_in_b || (!b_in_a && box_a.half.norm() <= box_b.half.norm());
   const Box& frame = a_smaller ? box_a : box_b;

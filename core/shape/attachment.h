@@ -5,10 +5,11 @@
 // put back onto the box they left through the inflation: for parts that merely touch it is flat.
 //
 // The order of an attachment is the number of symmetry planes that both boxes share (parallel within 10°) and about
-// which the region is symmetric as well: 0 a point (the region's centre), 1 a line (two points along the plane's normal,
-// at the region's ends), 2 a face (four points), 3 a volume (eight). The paper takes the smaller of the two parts' own
-// counts; for parallel boxes that is the same number, while for crossed ones it would tie axes that have nothing to do
-// with each other (the legs of a folding stool would be one block). A part inside another's box has order 3.
+// which the region is symmetric as well: 0 a point (the region's centre), 1 a line (two points along the plane's
+// normal, at the region's ends), 2 a face (four points), 3 a volume (eight). The paper takes the smaller of the two
+// parts' own counts; for parallel boxes that is the same number, while for crossed ones it would tie axes that have
+// nothing to do with each other (the legs of a folding stool would be one block). A part inside another's box has
+// order 3.
 #pragma once
 
 #include <array>

@@ -31,8 +31,7 @@ Congruence::Congruence(const PartData<PartMesh>& meshes, const SymmetryOptions& 
 
 const Congruence::Surface& Congruence::surface(PartIndex p) {
   if (!surfaces_[p]) {
-    const double distance =
-        std::clamp(options_.surface * measures_[p].half.norm(), options_.finest, options_.position);
+    const double distance = std::clamp(options_.surface * measures_[p].half.norm(), options_.finest, options_.position);
     auto made = std::make_unique<Surface>();
     made->samples = sample_surface(meshes_[p], options_.samples);
     made->grid = std::make_unique<SurfaceGrid>(meshes_[p], distance);

@@ -38,8 +38,8 @@ Result<Run> find_run(const GltfDocument& document, int accessor, int view_index,
   if (stride < element_size) return damaged(accessor, "byteStride is smaller than an element");
   const std::uint64_t needed = count == 0 ? 0 : std::uint64_t{offset} + stride * (count - 1) + element_size;
   if (needed > view.byteLength) {
-    return damaged(accessor, "its " + std::to_string(count) + " elements reach beyond bufferView " +
-                                 std::to_string(view_index));
+    return damaged(accessor,
+                   "its " + std::to_string(count) + " elements reach beyond bufferView " + std::to_string(view_index));
   }
   return Run{buffer.bytes.substr(view.byteOffset + std::min<std::size_t>(offset, view.byteLength),
                                  view.byteLength - std::min<std::size_t>(offset, view.byteLength)),
@@ -107,8 +107,8 @@ Result<std::vector<T>> read_elements(const GltfDocument& document, int index, st
   const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
   std::vector<T> values(accessor.count, zero);
   if (accessor.bufferView >= 0) {
-    const Result<Run> run = find_run(document, index, accessor.bufferView, accessor.byteOffset, accessor.count,
-                                     element_size, true);
+    const Result<Run> run =
+        find_run(document, index, accessor.bufferView, accessor.byteOffset, accessor.count, element_size, true);
     if (!run.ok()) return run.error();
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = read(run->bytes.data() + i * run->stride);
   } else if (!accessor.sparse.isSparse) {
@@ -152,13 +152,14 @@ std::string out_of_reach(const GltfDocument& document, int accessor) {
     const int buffer = document.model.bufferViews[static_cast<std::size_t>(index)].buffer;
     const bool known = buffer >= 0 && static_cast<std::size_t>(buffer) < document.buffers.size();
     const auto extensions = entry.find("extensions");
-    const bool meshopt = extensions != entry.end() && extensions->is_object() &&
-                         (extensions->contains("EXT_meshopt_compression") ||
-                          extensions->contains("KHR_meshopt_compression"));
+    const bool meshopt =
+        extensions != entry.end() && extensions->is_object() &&
+        (extensions->contains("EXT_meshopt_compression") || extensions->contains("KHR_meshopt_compression"));
     if (!known) continue;
     const GltfBuffer& bytes = document.buffers[static_cast<std::size_t>(buffer)];
     // A fallback buffer with bytes holds the data uncompressed.
-    if (meshopt && !bytes.missing.empty()) return "it is compressed with EXT_meshopt_compression, which is not read here";
+    if (meshopt && !bytes.missing.empty())
+      return "it is compressed with EXT_meshopt_compression, which is not read here";
     if (!bytes.missing.empty()) return bytes.missing;
   }
   return "";

@@ -11,8 +11,8 @@
 
 namespace parsel {
 
-/// Why the accessor's bytes are out of reach although nothing is damaged (a compressed bufferView, an external file that
-/// was not given), a clause; empty when they are within reach.
+/// Why the accessor's bytes are out of reach although nothing is damaged (a compressed bufferView, an external file
+/// that was not given), a clause; empty when they are within reach.
 std::string out_of_reach(const GltfDocument& document, int accessor);
 
 /// How many elements the accessor says it has; 0 when there is no such accessor.

@@ -35,7 +35,8 @@ Result<Container> split_container(std::string_view bytes) {
   if (!bytes.starts_with("glTF")) return Container{bytes, {}, false};
   if (bytes.size() < 20) return refused("GLB header", "the file ends inside it");
   const std::uint32_t version = little_endian(bytes, 4);
-  if (version != 2) return refused("GLB header", "version " + std::to_string(version) + " is not 2", "export it as glTF 2.0");
+  if (version != 2)
+    return refused("GLB header", "version " + std::to_string(version) + " is not 2", "export it as glTF 2.0");
   const std::uint64_t length = little_endian(bytes, 8);
   if (length > bytes.size()) {
     return refused("GLB header",
@@ -97,7 +98,8 @@ Result<json> parse_json(std::string_view text, const ImportLimits& limits) {
     // The library's text starts with its own tag, "[json.exception.parse_error.101] ".
     const std::string what = error.what();
     const std::size_t tag = what.find("] ");
-    return refused("JSON", printable(tag == std::string::npos ? what : what.substr(tag + 2), 200), "open a .glb or .gltf file");
+    return refused("JSON", printable(tag == std::string::npos ? what : what.substr(tag + 2), 200),
+                   "open a .glb or .gltf file");
   }
 }
 
@@ -129,8 +131,8 @@ Status check_indices(const json& object, const std::string& place, const char* n
   const auto found = object.find(name);
   if (found == object.end()) return success();
   const bool good = found->is_array() && std::all_of(found->begin(), found->end(), [](const json& x) {
-    return x.is_number_unsigned() && x.get<std::uint64_t>() <= 0x7fffffff;
-  });
+                      return x.is_number_unsigned() && x.get<std::uint64_t>() <= 0x7fffffff;
+                    });
   if (!good) return refused(place, std::string(name) + " is not an array of indices");
   return success();
 }
@@ -140,7 +142,8 @@ Status check_primitive(const json& primitive, const std::string& place) {
   const auto attributes = primitive.find("attributes");
   if (attributes == primitive.end() || !attributes->is_object()) return refused(place, "it has no attributes");
   for (const auto& [name, value] : attributes->items()) {
-    if (!value.is_number_unsigned()) return refused(place, "attribute " + printable(name) + " is not an accessor index");
+    if (!value.is_number_unsigned())
+      return refused(place, "attribute " + printable(name) + " is not an accessor index");
   }
   return check_integers(primitive, place, {"indices", "mode", "material"});
 }
@@ -166,7 +169,8 @@ Status check_node(const json& node, const std::string& place) {
 }
 
 Status check_accessor(const json& accessor, const std::string& place) {
-  if (Status s = check_integers(accessor, place, {"bufferView", "byteOffset", "componentType", "count"}); !s.ok()) return s;
+  if (Status s = check_integers(accessor, place, {"bufferView", "byteOffset", "componentType", "count"}); !s.ok())
+    return s;
   const auto sparse = accessor.find("sparse");
   if (sparse == accessor.end()) return success();
   if (!sparse->is_object()) return refused(place, "sparse is not an object");
@@ -201,7 +205,10 @@ Result<json> checked_sections(const json& file) {
       {"scenes", "scene", check_scene, {"nodes", "name"}},
       {"nodes", "node", check_node, {"name", "mesh", "skin", "children", "matrix", "translation", "rotation", "scale"}},
       {"meshes", "mesh", check_mesh, {"name", "primitives"}},
-      {"accessors", "accessor", check_accessor, {"bufferView", "byteOffset", "normalized", "componentType", "count", "type", "sparse"}},
+      {"accessors",
+       "accessor",
+       check_accessor,
+       {"bufferView", "byteOffset", "normalized", "componentType", "count", "type", "sparse"}},
       {"bufferViews", "bufferView", check_buffer_view, {"buffer", "byteOffset", "byteLength", "byteStride"}},
       {"materials", "material", check_nothing, {"name"}},
   };
@@ -231,7 +238,8 @@ Status check_asset(const json& file) {
   const auto asset = file.find("asset");
   if (asset == file.end() || !asset->is_object()) return refused("asset", "it is missing", "open a glTF 2.0 file");
   const auto version = asset->find("version");
-  if (version == asset->end() || !version->is_string()) return refused("asset", "it names no version", "open a glTF 2.0 file");
+  if (version == asset->end() || !version->is_string())
+    return refused("asset", "it names no version", "open a glTF 2.0 file");
   if (!version->get_ref<const std::string&>().starts_with("2.")) {
     return refused("asset", "version " + printable(version->get_ref<const std::string&>()) + " is not 2.x",
                    "export it as glTF 2.0");
@@ -325,8 +333,8 @@ Result<GltfBuffer> read_buffer(const json& entry, std::size_t index, const Conta
     buffer.bytes = file->second;
   }
   if (buffer.bytes.size() < promised) {
-    return refused(place, "it promises " + std::to_string(promised) + " bytes and has " +
-                              std::to_string(buffer.bytes.size()));
+    return refused(place,
+                   "it promises " + std::to_string(promised) + " bytes and has " + std::to_string(buffer.bytes.size()));
   }
   buffer.bytes = buffer.bytes.substr(0, promised);
   return buffer;
@@ -338,7 +346,11 @@ std::string printable(std::string_view text, std::size_t limit) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i]);
-    const std::size_t size = c < 0x80 ? 1 : c >= 0xc2 && c < 0xe0 ? 2 : c >= 0xe0 && c < 0xf0 ? 3 : c >= 0xf0 && c < 0xf5 ? 4 : 0;
+    const std::size_t size = c < 0x80                ? 1
+                             : c >= 0xc2 && c < 0xe0 ? 2
+                             : c >= 0xe0 && c < 0xf0 ? 3
+                             : c >= 0xf0 && c < 0xf5 ? 4
+                                                     : 0;
     bool whole = size > 0 && i + size <= text.size();
     for (std::size_t k = 1; whole && k < size; ++k) whole = (static_cast<unsigned char>(text[i + k]) & 0xc0) == 0x80;
     // C0 and C1 controls, and the marks that reorder or hide text (U+200B…200F, U+2028…202E, U+2066…2069, U+FEFF).
@@ -361,6 +373,24 @@ std::string printable(std::string_view text, std::size_t limit) {
   }
   while (!out.empty() && out.back() == ' ') out.pop_back();
   return out;
+}
+
+std::vector<std::string> external_buffer_uris(std::string_view bytes) {
+  std::vector<std::string> uris;
+  const Result<Container> container = split_container(bytes);
+  if (!container.ok()) return uris;
+  const Result<json> file = parse_json(container->json, ImportLimits());
+  if (!file.ok()) return uris;
+  const auto buffers = file->find("buffers");
+  if (buffers == file->end() || !buffers->is_array()) return uris;
+  for (const json& buffer : *buffers) {
+    if (!buffer.is_object()) continue;
+    const auto uri = buffer.find("uri");
+    if (uri == buffer.end() || !uri->is_string()) continue;
+    const std::string& text = uri->get_ref<const std::string&>();
+    if (!text.starts_with("data:")) uris.push_back(percent_decoded(text));
+  }
+  return uris;
 }
 
 Result<GltfDocument> read_gltf_document(std::string_view bytes, const ExternalBuffers& external,

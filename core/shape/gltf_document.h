@@ -27,14 +27,14 @@ struct ImportLimits {
 };
 
 struct GltfBuffer {
-  std::string_view bytes;         ///< into the file, an external buffer, or `decoded`
-  std::string decoded;            ///< of a data URI
-  std::string missing;            ///< why there are no bytes, a clause; empty when there are
+  std::string_view bytes;  ///< into the file, an external buffer, or `decoded`
+  std::string decoded;     ///< of a data URI
+  std::string missing;     ///< why there are no bytes, a clause; empty when there are
 };
 
 struct GltfDocument {
-  nlohmann::json json;     ///< the whole of it, for what tinygltf drops (extensions)
-  tinygltf::Model model;   ///< scenes, nodes, meshes, accessors, bufferViews and material names; nothing else
+  nlohmann::json json;    ///< the whole of it, for what tinygltf drops (extensions)
+  tinygltf::Model model;  ///< scenes, nodes, meshes, accessors, bufferViews and material names; nothing else
   std::vector<GltfBuffer> buffers;
 };
 

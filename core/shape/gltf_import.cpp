@@ -53,9 +53,9 @@ class Importer {
 
   /// Extensions that the file requires and that could change what the shape is.
   void note_extensions() {
-    static const std::set<std::string> harmless = {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu",
-                                                   "KHR_lights_punctual",   "EXT_texture_webp",      "EXT_texture_avif",
-                                                   "MSFT_texture_dds"};
+    static const std::set<std::string> harmless = {
+        "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "KHR_lights_punctual",
+        "EXT_texture_webp",      "EXT_texture_avif",      "MSFT_texture_dds"};
     static const std::set<std::string> named_elsewhere = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
                                                           "KHR_meshopt_compression"};
     const auto required = document_.json.find("extensionsRequired");
@@ -128,7 +128,8 @@ class Importer {
       std::vector<bool> is_child(model.nodes.size(), false);
       for (const tinygltf::Node& node : model.nodes) {
         for (const int child : node.children) {
-          if (child >= 0 && static_cast<std::size_t>(child) < is_child.size()) is_child[static_cast<std::size_t>(child)] = true;
+          if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
+            is_child[static_cast<std::size_t>(child)] = true;
         }
       }
       std::vector<int> roots;
@@ -188,7 +189,8 @@ class Importer {
 
   Status read_primitive(const PlacedNode& placed, const tinygltf::Node& node, const tinygltf::Mesh& mesh, int index) {
     const tinygltf::Primitive& primitive = mesh.primitives[static_cast<std::size_t>(index)];
-    const json& raw = document_.json["meshes"][static_cast<std::size_t>(node.mesh)]["primitives"][static_cast<std::size_t>(index)];
+    const json& raw =
+        document_.json["meshes"][static_cast<std::size_t>(node.mesh)]["primitives"][static_cast<std::size_t>(index)];
     std::string place = "node " + std::to_string(placed.node);
     if (mesh.primitives.size() > 1) place += ", primitive " + std::to_string(index);
     const auto leave_out = [&](const std::string& why) {
@@ -218,9 +220,10 @@ class Importer {
     const std::size_t triangles = is_list ? corners / 3 : corners < 3 ? 0 : corners - 2;
     if (vertices > limits_.vertices - vertices_ || triangles > limits_.triangles - triangles_ ||
         model_.meshes.size() >= limits_.parts) {
-      return refused(place, "the model has more than " + std::to_string(limits_.parts) + " parts, " +
-                                std::to_string(limits_.vertices) + " vertices or " +
-                                std::to_string(limits_.triangles) + " triangles",
+      return refused(place,
+                     "the model has more than " + std::to_string(limits_.parts) + " parts, " +
+                         std::to_string(limits_.vertices) + " vertices or " + std::to_string(limits_.triangles) +
+                         " triangles",
                      "simplify the model or join its small parts");
     }
     vertices_ += vertices;
@@ -256,7 +259,8 @@ class Importer {
     return success();
   }
 
-  Status collect_triangles(PartMesh& part, const std::vector<std::uint32_t>& indices, int mode, const std::string& place) {
+  Status collect_triangles(PartMesh& part, const std::vector<std::uint32_t>& indices, int mode,
+                           const std::string& place) {
     std::size_t broken = 0;
     for (const std::uint32_t index : indices) {
       if (index >= part.positions.size()) {

@@ -11,9 +11,9 @@
 
 namespace parsel {
 
-/// The parent's hexahedron. Translation: the tight box around the instances' boxes, its axes those of the instances with
-/// the one most along delta put onto it. Rotation: centred on the axis, square across it, so that it is as symmetric as
-/// the group is.
+/// The parent's hexahedron. Translation: the tight box around the instances' boxes, its axes those of the instances
+/// with the one most along delta put onto it. Rotation: centred on the axis, square across it, so that it is as
+/// symmetric as the group is.
 Hexahedron group_box(const SymmetryGroup& group, const PartData<Hexahedron>& boxes);
 
 /// When the instances of `image` are the mirror images of those of `of`, all about one plane: that plane.

@@ -28,8 +28,9 @@ bool is_separator(char c) {
 }
 
 // Longest first, so that "center" goes before a shorter word inside it.
-constexpr std::array<std::string_view, 16> glued_words = {"bottom", "middle", "center", "centre", "right", "front", "upper", "lower",
-                                                          "inner", "outer", "left", "back", "rear", "top", "bot", "mid"};
+constexpr std::array<std::string_view, 16> glued_words = {"bottom", "middle", "center", "centre", "right", "front",
+                                                          "upper",  "lower",  "inner",  "outer",  "left",  "back",
+                                                          "rear",   "top",    "bot",    "mid"};
 constexpr std::array<std::string_view, 10> short_words = {"l", "r", "lf", "rf", "lb", "rb", "fl", "fr", "bl", "br"};
 
 /// Takes direction words off both ends of a word, glued or whole.
@@ -65,7 +66,8 @@ std::string readable(std::string_view label) {
 }
 
 // Words for the negative and the positive side of each axis.
-constexpr std::array<std::array<std::string_view, 2>, 3> sides = {{{"right", "left"}, {"bottom", "top"}, {"back", "front"}}};
+constexpr std::array<std::array<std::string_view, 2>, 3> sides = {
+    {{"right", "left"}, {"bottom", "top"}, {"back", "front"}}};
 // Vertical first, then depth, then width: "top front left".
 constexpr std::array<int, 3> word_order = {1, 2, 0};
 

@@ -27,7 +27,8 @@ std::vector<Vec3> sample_surface(const PartMesh& mesh, std::size_t count) {
   Random random(0x5eed);
   for (std::size_t i = 0; i < count; ++i) {
     const double target = total * (static_cast<double>(i) + random.unit()) / static_cast<double>(count);
-    auto found = static_cast<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin());
+    auto found =
+        static_cast<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin());
     // A surface without area (a wire) is sampled at its triangles in turn.
     if (!(total > 0)) found = i % mesh.triangles.size();
     const Triangle& t = mesh.triangles[std::min(found, mesh.triangles.size() - 1)];

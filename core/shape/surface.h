@@ -1,4 +1,5 @@
-// Surfaces as symmetry detection sees them: evenly spread samples of one, and a fast "is this point on it" for the other.
+// Surfaces as symmetry detection sees them: evenly spread samples of one, and a fast "is this point on it" for the
+// other.
 #pragma once
 
 #include <array>
@@ -14,7 +15,8 @@ namespace parsel {
 std::vector<Vec3> sample_surface(const PartMesh& mesh, std::size_t count);
 
 /// A uniform grid over a mesh's triangles that answers whether a point lies within a fixed distance of the surface. The
-/// distance is to the triangles themselves, not to samples of them, so the answer does not depend on a sampling density.
+/// distance is to the triangles themselves, not to samples of them, so the answer does not depend on a sampling
+/// density.
 class SurfaceGrid {
  public:
   /// `mesh` must outlive the grid. `distance` > 0, in the normalised frame.
@@ -29,7 +31,7 @@ class SurfaceGrid {
   double distance_;
   Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero(), cell_size_ = Vec3::Ones();
   std::array<int, 3> cells_{1, 1, 1};
-  std::vector<std::uint32_t> starts_;     ///< cell c's triangles are triangles_[starts_[c]] … triangles_[starts_[c+1]-1]
+  std::vector<std::uint32_t> starts_;  ///< cell c's triangles are triangles_[starts_[c]] … triangles_[starts_[c+1]-1]
   std::vector<std::uint32_t> triangles_;
 };
 

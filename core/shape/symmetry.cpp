@@ -150,7 +150,12 @@ class SymmetryFinder {
       if (!congruence_.carries(ring[0], ring[k], turned, true)) return;
     }
     if (n == 4 && !point_along_radius(ring, centre, axis) && reflections_explain(ring, centre)) return;
-    add_group({SymmetryGroup::Kind::rotation, ring, Vec3::Zero(), centre, axis});
+    SymmetryGroup group;
+    group.kind = SymmetryGroup::Kind::rotation;
+    group.parts = ring;
+    group.centre = centre;
+    group.axis = axis;
+    add_group(std::move(group));
   }
 
   bool point_along_radius(const Parts& ring, const Vec3& centre, const Vec3& axis) const {
@@ -216,17 +221,19 @@ class SymmetryFinder {
     bool taken = false;
     for (const Parts& line : lines) {
       if (!std::all_of(line.begin(), line.end(), [&](PartIndex p) { return is_free(p); })) continue;
-      const Vec3 delta = (congruence_.centre(line.back()) - congruence_.centre(line.front())) /
-                         static_cast<double>(line.size() - 1);
-      add_group({SymmetryGroup::Kind::translation, line, snapped(delta, static_cast<double>(line.size() - 1)), {}, {}});
+      const Vec3 delta =
+          (congruence_.centre(line.back()) - congruence_.centre(line.front())) / static_cast<double>(line.size() - 1);
+      SymmetryGroup group;
+      group.kind = SymmetryGroup::Kind::translation;
+      group.parts = line;
+      group.delta = snapped(delta, static_cast<double>(line.size() - 1));
+      add_group(std::move(group));
       taken = true;
     }
     return taken;
   }
 
-  double spacing(const Parts& line) const {
-    return (congruence_.centre(line[1]) - congruence_.centre(line[0])).norm();
-  }
+  double spacing(const Parts& line) const { return (congruence_.centre(line[1]) - congruence_.centre(line[0])).norm(); }
 
   /// A line that runs along a global axis within tolerance is put on it.
   Vec3 snapped(const Vec3& delta, double steps) const {
@@ -272,7 +279,8 @@ class SymmetryFinder {
     Parts line = {start, next};
     // Each step starts from the last part found, so that small errors do not add up along a long line.
     while (const auto more = at(congruence_.centre(line.back()) + delta)) line.push_back(*more);
-    const Vec3 step = (congruence_.centre(line.back()) - congruence_.centre(start)) / static_cast<double>(line.size() - 1);
+    const Vec3 step =
+        (congruence_.centre(line.back()) - congruence_.centre(start)) / static_cast<double>(line.size() - 1);
     for (std::size_t k = 0; k < line.size(); ++k) {
       const Vec3 expected = congruence_.centre(start) + static_cast<double>(k) * step;
       if ((congruence_.centre(line[k]) - expected).norm() > options_.position) return {};
@@ -335,7 +343,8 @@ class SymmetryFinder {
     std::erase_if(pairs, [&](const MirrorPair& m) {
       if (is_free(m.a)) return false;
       const std::size_t paired = count[key(m)];
-      return paired != found_.groups[group_of_[m.a]].parts.size() || paired != found_.groups[group_of_[m.b]].parts.size();
+      return paired != found_.groups[group_of_[m.a]].parts.size() ||
+             paired != found_.groups[group_of_[m.b]].parts.size();
     });
   }
 
@@ -413,7 +422,8 @@ PartData<Hexahedron> align_boxes(const PartData<Hexahedron>& boxes, const Symmet
       if (const auto group = group_of.find(p); group != group_of.end() && !spread[group->second]) {
         spread[group->second] = true;
         const Parts& parts = symmetries.groups[group->second].parts;
-        if (p == parts.front() && std::none_of(parts.begin() + 1, parts.end(), [&](PartIndex q) { return placed[q]; })) {
+        if (p == parts.front() &&
+            std::none_of(parts.begin() + 1, parts.end(), [&](PartIndex q) { return placed[q]; })) {
           place_instances(symmetries.groups[group->second], queue);
         }
       }

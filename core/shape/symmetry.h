@@ -11,7 +11,8 @@
 //      edges, are reflections, because widening the table keeps those and breaks a rotation.
 //   2. Translation: at least three congruent parts at equal distances on a line; the longest line first.
 //      A part is in at most one translation or rotation group; there are no groups of groups.
-//   3. Reflection about planes x, y or z = constant, pair by pair. For each set of congruent parts and each axis at most
+//   3. Reflection about planes x, y or z = constant, pair by pair. For each set of congruent parts and each axis at
+//   most
 //      one plane: the middle plane of the shape when it pairs any of them, else the set's own middle plane when that
 //      maps the whole set onto itself. Parts of one group are not paired with each other; two groups are paired when
 //      all their instances are.
@@ -44,7 +45,8 @@ struct MirrorPair {
 
 /// Instance k is instance 0 translated by k · delta (translation) or turned by k · 2π/n about the axis (rotation).
 struct SymmetryGroup {
-  enum class Kind { translation, rotation } kind;
+  enum class Kind { translation, rotation };
+  Kind kind = Kind::translation;
   std::vector<PartIndex> parts;
   Vec3 delta = Vec3::Zero();
   Vec3 centre = Vec3::Zero(), axis = Vec3::Zero();
