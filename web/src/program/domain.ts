@@ -24,7 +24,7 @@ export const maxMagnitude = 1e6;
 
 /** Arguments of sqrt and bases of powers this little below 0 are rounding noise and count as 0. */
 const noise = 1e-12;
-const nodesPerAmount = 60_000;
+const nodesPerAmount = 20_000;
 /** Boxes narrower than this share of the range are not halved further. */
 const narrowest = 1e-9;
 
