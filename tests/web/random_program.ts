@@ -90,10 +90,10 @@ export function randomShape(seed: number, size: ShapeSize = defaultShapeSize): S
   const random = new Random(seed);
   const parts: ShapePart[] = [];
   const relations: ShapeRelation[] = [];
-  const addPart = (id: string, corners: Corners, axes: Axes, members: readonly string[] = []): string => {
-    const node = members.length > 0 ? -1 : 2 * parts.length + 1;
-    const primitive = members.length > 0 ? -1 : 0;
-    parts.push({ id, label: id, name: id, node, primitive, corners, axes, virtual: members.length > 0, members });
+  const addPart: AddPart = (id, corners, axes, group, members = []) => {
+    const virtual = members.length > 0;
+    const place = virtual ? { node: -1, primitive: -1 } : { node: 2 * parts.length + 1, primitive: 0 };
+    parts.push({ id, label: id, name: id, ...place, corners, axes, virtual, members, ...(group ? { group } : {}) });
     return id;
   };
   const half = (): Vec3 => [random.uniform(0.05, 0.4), random.uniform(0.05, 0.4), random.uniform(0.05, 0.4)];
@@ -105,16 +105,48 @@ export function randomShape(seed: number, size: ShapeSize = defaultShapeSize): S
   for (let r = 0; r < size.rows; ++r) relations.push(addRow(random, r, addPart));
   for (let r = 0; r < size.rings; ++r) relations.push(addRing(random, r, addPart));
   const [a, b] = parts;
-  if (a && b) {
-    relations.push({ id: 'a1', kind: 'point', parts: [a.id, b.id], points: [[0, 0, 0]] });
-    relations.push({ id: 'r1', kind: 'reflection', parts: [a.id, b.id], origin: [0, 0, 0], normal: [1, 0, 0] });
+  if (a && b && size.loose >= 2) {
+    const image = mirrored(a);
+    parts[1] = { ...b, ...image };
+    relations.push({ id: 'r1', kind: 'reflection', parts: [a.id, b.id], ...mirrorPlane });
+    const [points, local_a, local_b] = [
+      [a.corners[0] ?? noVector],
+      [[-1, -1, -1] as const],
+      [localPoint(image, a.corners[0] ?? noVector)],
+    ];
+    relations.push({ id: 'a1', kind: 'point', parts: [a.id, b.id], points, local_a, local_b });
   }
   const frame = { centre: [0, 0, 0] as const, scale: 1 };
   const sha256 = '0'.repeat(64);
   return { format: 'parsel/shape', version: 1, name: `random ${seed}`, sha256, frame, parts, relations, warnings: [] };
 }
 
-type AddPart = (id: string, corners: Corners, axes: Axes, members?: readonly string[]) => string;
+type AddPart = (id: string, corners: Corners, axes: Axes, group?: string, members?: readonly string[]) => string;
+
+const noVector: Vec3 = [0, 0, 0];
+const mirrorPlane = { origin: noVector, normal: [1, 0, 0] as const, corner_map: [1, 0, 3, 2, 5, 4, 7, 6] };
+
+/** The image about the plane x = 0, its first axis turned round so that the axes stay right-handed. */
+function mirrored({ corners, axes }: Pick<ShapePart, 'corners' | 'axes'>): { corners: Corners; axes: Axes } {
+  const image = ([x, y, z]: Vec3): Vec3 => [-x, y, z];
+  const [first, second, third] = axes;
+  const turned: Vec3 = [first[0], -first[1], -first[2]];
+  return {
+    corners: mirrorPlane.corner_map.map((from) => image(corners[from] ?? noVector)),
+    axes: [turned, image(second), image(third)],
+  };
+}
+
+/** Local coordinates of a point in a box. */
+function localPoint({ corners, axes }: Pick<ShapePart, 'corners' | 'axes'>, point: Vec3): Vec3 {
+  const project = (v: Vec3, axis: Vec3) => v.reduce((sum, x, i) => sum + x * (axis[i] ?? 0), 0);
+  const local = axes.map((axis, i) => {
+    const low = project(corners[0] ?? noVector, axis);
+    const high = project(corners[1 << i] ?? noVector, axis);
+    return (2 * project(point, axis) - low - high) / (high - low);
+  });
+  return local as unknown as Vec3;
+}
 
 function along(axes: Axes, from: Vec3, local: readonly [number, number, number]): Vec3 {
   const component = (i: 0 | 1 | 2) => axes.reduce((sum, axis, j) => sum + (local[j] ?? 0) * axis[i], from[i]);
@@ -135,14 +167,15 @@ function addRow(random: Random, number: number, addPart: AddPart): GroupRelation
     local[axis] = direction * (k - (count - 1) / 2) * spacing;
     return along(axes, middle, local);
   };
+  const id = `t${number + 1}`;
   const members = Array.from({ length: count }, (_, k) =>
-    addPart(`row_${number}_${k}`, boxCorners(place(k), axes, half), axes),
+    addPart(`row_${number}_${k}`, boxCorners(place(k), axes, half), axes, id),
   );
   const outer: [number, number, number] = [...half];
   outer[axis] = 0.04 + ((count - 1) / 2) * spacing;
-  const parent = addPart(`row_${number}`, boxCorners(middle, axes, outer), axes, members);
+  const parent = addPart(`row_${number}`, boxCorners(middle, axes, outer), axes, id, members);
   const [start, end] = [place(0), place(count - 1)];
-  return { id: `t${number + 1}`, kind: 'translation', parts: members, parent, start, end, axis, direction };
+  return { id, kind: 'translation', parts: members, parent, start, end, axis, direction };
 }
 
 function addRing(random: Random, number: number, addPart: AddPart): GroupRelation {
@@ -156,8 +189,11 @@ function addRing(random: Random, number: number, addPart: AddPart): GroupRelatio
   half[parentAxis] = random.uniform(0.1, 0.3);
   half[first] = 0.05;
   half[second] = 0.03;
+  const id = `o${number + 1}`;
+  /** Whether the axis points along the parent's own, or against it. */
+  const sign = random.pick([-1, 1]);
   const members = Array.from({ length: count }, (_, k) => {
-    const angle = (2 * Math.PI * k) / count;
+    const angle = (sign * 2 * Math.PI * k) / count;
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     const outward = along([axes[first], axes[second], axes[parentAxis]], [0, 0, 0], [c, s, 0]);
     const around = along([axes[first], axes[second], axes[parentAxis]], [0, 0, 0], [-s, c, 0]);
@@ -165,19 +201,18 @@ function addRing(random: Random, number: number, addPart: AddPart): GroupRelatio
     own[first] = outward;
     own[second] = around;
     const at = along([outward, around, axes[parentAxis]], centre, [radius, 0, 0]);
-    return addPart(`ring_${number}_${k}`, boxCorners(at, own, half), own);
+    return addPart(`ring_${number}_${k}`, boxCorners(at, own, half), own, id);
   });
   const outer: [number, number, number] = [radius + 0.05, radius + 0.05, radius + 0.05];
   outer[parentAxis] = half[parentAxis];
-  const parent = addPart(`ring_${number}`, boxCorners(centre, axes, outer), axes, members);
-  const sign = random.pick([-1, 1]);
+  const parent = addPart(`ring_${number}`, boxCorners(centre, axes, outer), axes, id, members);
   const axis = along(
     axes,
     [0, 0, 0],
     globalAxes[parentAxis].map((x) => sign * x) as unknown as [number, number, number],
   );
   return {
-    id: `o${number + 1}`,
+    id,
     kind: 'rotation',
     parts: members,
     parent,
