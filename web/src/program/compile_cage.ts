@@ -3,8 +3,8 @@
 //
 // The trilinear map in powers of its coordinates, c₀ + c₁u + c₂v + c₃uv + c₄w + c₅uw + c₆vw + c₇uvw, has
 // cₘ = ⅛ Σₖ Hₖ χₘ(k), χₘ(k) the product of corner k's signs along the axes in m: a Walsh–Hadamard transform of the
-// corners. Once a statement; each of its points then costs some fifty multiplications a Newton step (measured: 10 times
-// less than summing weights over the corners).
+// corners, once a statement. Each of its points then costs about a hundred multiplications a Newton step; summing weights
+// over the corners instead made whole evaluations of programs with groups three times slower (2.2 against 0.76 ms).
 
 const newtonSteps = 32;
 const converged = 1e-12;
