@@ -3,10 +3,12 @@
 
 namespace parsel::cli {
 
+extern const Command convert_command;
+extern const Command evaluate_command;
 extern const Command inspect_command;
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all = {inspect_command};
+  static const std::vector<Command> all = {inspect_command, convert_command, evaluate_command};
   return all;
 }
 
