@@ -7,12 +7,15 @@
 
 namespace parsel {
 namespace gallery {
-extern const GalleryModel chair, dining_table, bookcase;
+extern const GalleryModel chair, armchair, bar_stool, dining_table, round_table, desk, bookcase, cabinet, bed, bunk_bed,
+    bench, floor_lamp, picket_fence, ceiling_fan, windmill, gazebo, bird_house, ladder, wagon_wheel;
 }
 
 const std::vector<GalleryModel>& gallery_models() {
   using namespace gallery;
-  static const std::vector<GalleryModel> models = {chair, dining_table, bookcase};
+  static const std::vector<GalleryModel> models = {
+      chair, armchair,   bar_stool,    dining_table, round_table, desk,   bookcase,   cabinet, bed,        bunk_bed,
+      bench, floor_lamp, picket_fence, ceiling_fan,  windmill,    gazebo, bird_house, ladder,  wagon_wheel};
   return models;
 }
 

@@ -215,8 +215,9 @@ GalleryAsset ModelBuilder::finish() const {
   return {model_.id, write_glb(scene_), bounds(), parts(), relations_, edits_};
 }
 
-std::string seed_translate(NodeId part, const Vec3& direction, LocalTriple feature) {
+std::string seed_translate(NodeId part, const Vec3& direction, LocalTriple feature, const std::string& amount) {
   Json json = seed("translate", part, feature);
+  json["amount"] = amount;
   json["direction"] = vector_json(direction);
   return json.dump();
 }

@@ -113,7 +113,8 @@ class ModelBuilder {
 };
 
 // Seed statements, amount x unless given. `at` names the origin's local triple; `feature` what is moved.
-std::string seed_translate(NodeId part, const Vec3& direction, LocalTriple feature = {0, 0, 0});
+std::string seed_translate(NodeId part, const Vec3& direction, LocalTriple feature = {0, 0, 0},
+                           const std::string& amount = "x");
 std::string seed_scale_1d(NodeId part, const Vec3& direction, LocalTriple at = {0, 0, 0});
 std::string seed_scale_2d(NodeId part, const Vec3& normal, LocalTriple at = {0, 0, 0});
 std::string seed_scale_3d(NodeId part, LocalTriple at = {0, 0, 0});
