@@ -6,9 +6,17 @@
 //   unary   = ("-" | "+") unary | power                   so -x^2 = -(x^2)
 //   power   = primary [ "^" unary ]                       right-associative; x^-2 is allowed
 //   primary = number | "pi" | parameter | function "(" sum { "," sum } ")" | "(" sum ")"
-//   function = sqrt abs floor sin cos tan atan2 min max
-//   number  = decimal digits with optional point and exponent; parameter = [a-z][a-z0-9_]* that is no function name
-// At most 4,096 characters and 64 levels of nesting.
+//   function = sqrt abs floor sin cos tan (1 argument), atan2 (y, x), min max (2 or more)
+//   number  = (digits ["." [digits]] | "." digits) [("e" | "E") ["+" | "-"] digits], finite as a double
+//   parameter = [a-z][a-z0-9_]* that is no function name and not pi; blanks, tabs and line ends separate tokens
+// At most 4,096 characters and 64 levels: open parentheses, pending signs and pending right sides of "^" together.
+//
+// Numbers. A decimal of at most 15 significant digits between 1e-25 and 1e25 is the exact rational that it reads as, so
+// that 0.5 is 1/2; an integer without point or exponent is always exact; what else is a double.
+//
+// Undefined is NaN, never infinity: division by zero, 0 to a negative power, the square root of a negative (down to
+// -1e-12, the noise of an expanded square, it is 0), a fractional power of a negative, anything too large for a double.
+// NaN goes through every operation. GiNaC simplifies on construction, so that removable singularities vanish: x/x is 1.
 #pragma once
 
 #include <ginac/ginac.h>
