@@ -61,9 +61,10 @@ CASES = [
     ("sqrt(-1)*sqrt(-1)", {}, UNDEFINED), ("min(1,sqrt(x1))", {"x1": -1}, UNDEFINED), ("max(1/x1,5)", {"x1": 0}, UNDEFINED),
     ("atan2(1,1/x1)", {"x1": 0}, UNDEFINED), ("floor(1/x1)", {"x1": 0}, UNDEFINED), ("x1^x1", {"x1": -0.5}, UNDEFINED),
     ("1/(1/x1+1)", {"x1": 0}, UNDEFINED), ("1e300*1e300*x1", {"x1": 1}, UNDEFINED), ("y^x1", {"x1": 1e6, "y": 1e6}, UNDEFINED),
-    ("2^(1/x1)", {"x1": 0}, UNDEFINED), ("1^sqrt(x1)", {"x1": 4}, 1), ("abs(sqrt(x1))", {"x1": -4}, UNDEFINED),
+    ("2^(1/x1)", {"x1": 0}, UNDEFINED), ("1^sqrt(x1)", {"x1": 4}, 1), ("abs(1/x1)", {"x1": 0}, UNDEFINED),
     # a square root forgives the noise of an expanded square
     ("sqrt(x1)", {"x1": -1e-13}, 0), ("sqrt(x1)", {"x1": -1e-11}, UNDEFINED),
+    ("x1^1.5", {"x1": -1e-13}, 0), ("x1^1.5", {"x1": -1e-11}, UNDEFINED), ("x1^-0.5", {"x1": -1e-13}, UNDEFINED),
     # 64 levels are allowed
     ("(" * 64 + "x1" + ")" * 64, X, 0.3), ("-" * 64 + "x1", X, 0.3), ("2^" * 64 + "0", {}, UNDEFINED),
     ("+".join(["x1"] * 1000), X, 300),
