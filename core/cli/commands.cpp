@@ -3,10 +3,12 @@
 
 namespace parsel::cli {
 
+extern const Command check_command;
 extern const Command inspect_command;
+extern const Command score_command;
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all = {inspect_command};
+  static const std::vector<Command> all = {inspect_command, check_command, score_command};
   return all;
 }
 

@@ -40,17 +40,17 @@ class Limits {
       if (std::isnan(amount)) return "the amount of " + targets_[i] + " would be undefined";
       if (!(std::abs(amount) < largest_amount)) return "the amount of " + targets_[i] + " would be too large";
     }
-    evaluator_(values_, state_);
+    const State state = evaluator_(values_);
     for (const PartIndex p : shape_.parts.indices()) {
       if (!is_active(shape_, p, dissolved_)) continue;
       const Part& part = shape_.parts[p];
-      std::string fault = judge(state_.parts[p], part.hexahedron.corners, part.id);
+      std::string fault = judge(state.parts[p], part.hexahedron.corners, part.id);
       if (!fault.empty()) return fault;
     }
     for (const RelationIndex r : shape_.relations.indices()) {
       const Relation& relation = shape_.relations[r];
       if (!relation.is_group() || std::count(dissolved_.begin(), dissolved_.end(), r) > 0) continue;
-      const GroupState& group = state_.groups[r];
+      const GroupState& group = state.groups[r];
       for (std::size_t k = 0; k < group.instances.size(); ++k) {
         const std::size_t member = group.source >= 0 ? static_cast<std::size_t>(group.source) : k;
         const Part& part = shape_.parts[relation.parts[member]];
@@ -75,7 +75,6 @@ class Limits {
   std::vector<std::string> targets_;
   std::vector<RelationIndex> dissolved_;
   std::vector<double> values_;
-  State state_;
 };
 
 /// The last good value from 0 towards `end`, and why no further.
