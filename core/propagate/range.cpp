@@ -11,7 +11,7 @@ namespace parsel {
 
 namespace {
 
-constexpr int steps = 128;
+constexpr int steps = 48;
 constexpr double precision = 1e-6;  ///< of the limit
 constexpr double decimals = 1e4;
 
@@ -29,7 +29,9 @@ class Limits {
       amounts_.push_back(statement.amount.compile(names));
       targets_.push_back(is_geometric(statement.op) ? statement.part : statement.relation);
     }
-    dissolved_ = scope_of(shape, program, layer, {}).dissolved;
+    const Scope scope = scope_of(shape, program, layer, {});
+    dissolved_ = scope.dissolved;
+    edited_ = scope.edited;
   }
 
   /// What goes wrong at x; empty when nothing does.
@@ -42,14 +44,15 @@ class Limits {
     }
     const State state = evaluator_(values_);
     for (const PartIndex p : shape_.parts.indices()) {
-      if (!is_active(shape_, p, dissolved_)) continue;
+      if (edited_.count(p) == 0 || !is_active(shape_, p, dissolved_)) continue;
       const Part& part = shape_.parts[p];
       std::string fault = judge(state.parts[p], part.hexahedron.corners, part.id);
       if (!fault.empty()) return fault;
     }
     for (const RelationIndex r : shape_.relations.indices()) {
       const Relation& relation = shape_.relations[r];
-      if (!relation.is_group() || std::count(dissolved_.begin(), dissolved_.end(), r) > 0) continue;
+      if (!relation.is_group() || edited_.count(relation.parts[0]) == 0) continue;
+      if (std::count(dissolved_.begin(), dissolved_.end(), r) > 0) continue;
       const GroupState& group = state.groups[r];
       for (std::size_t k = 0; k < group.instances.size(); ++k) {
         const std::size_t member = group.source >= 0 ? static_cast<std::size_t>(group.source) : k;
@@ -74,6 +77,7 @@ class Limits {
   std::vector<CompiledAmount> amounts_;
   std::vector<std::string> targets_;
   std::vector<RelationIndex> dissolved_;
+  std::set<PartIndex> edited_;
   std::vector<double> values_;
 };
 
