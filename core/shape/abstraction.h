@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/index.h"
 #include "core/base/result.h"
@@ -27,5 +28,9 @@ struct Abstraction {
 /// Deterministic: the same bytes give the same shape, ids and numbers. Fails when the file is damaged, too large, or
 /// holds no triangle mesh that can be read; what else is left out stands in shape.warnings.
 Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name, const ExternalBuffers& buffers = {});
+
+/// The URIs of external buffers that the file names, percent-decoded, for the caller to fetch before abstract_shape().
+/// Empty for a damaged file, which abstract_shape() then refuses by name.
+std::vector<std::string> external_buffer_uris(std::string_view bytes);
 
 }  // namespace parsel
