@@ -69,18 +69,13 @@ class Evaluator {
  public:
   /// `program` must have passed validate() for `shape`.
   Evaluator(const Program& program, const Shape& shape);
-  ~Evaluator();
-  Evaluator(Evaluator&&) noexcept;
-  Evaluator& operator=(Evaluator&&) noexcept;
 
   /// `values[i]` is the value of layer i's parameter. Deterministic.
   State operator()(const std::vector<double>& values) const;
-  /// The same into a state of the caller, whose storage is reused: no allocation when nothing changes a count.
-  void operator()(const std::vector<double>& values, State& state) const;
 
  private:
   struct Implementation;
-  std::unique_ptr<const Implementation> implementation_;
+  std::shared_ptr<const Implementation> implementation_;
 };
 
 /// The shape at rest.
