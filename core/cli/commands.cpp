@@ -4,10 +4,9 @@
 namespace parsel::cli {
 
 extern const Command inspect_command;
-extern const Command gallery_command;
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all = {inspect_command, gallery_command};
+  static const std::vector<Command> all = {inspect_command};
   return all;
 }
 
