@@ -4,9 +4,10 @@
 namespace parsel::cli {
 
 extern const Command inspect_command;
+extern const Command propagate_command;
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all = {inspect_command};
+  static const std::vector<Command> all = {inspect_command, propagate_command};
   return all;
 }
 
