@@ -10,7 +10,12 @@ export PARSEL_DATA=${PARSEL_DATA:-}
 
 need "$build_needs
 $native_needs"
-if ! has chromium && ! has chromium-browser && ! has google-chrome; then need "chromium chromium"; fi
+if ! has chromium && ! has google-chrome; then
+  if grep -qs '^ID=ubuntu' /etc/os-release; then
+    die "The browser tests want Chromium, which Ubuntu has only as a snap: run 'sudo snap install chromium' (or install google-chrome) and run again."
+  fi
+  need "chromium chromium"
+fi
 "$root/web/start.sh" --build-only
 need_node
 

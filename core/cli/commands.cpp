@@ -4,11 +4,14 @@
 namespace parsel::cli {
 
 extern const Command check_command;
+extern const Command gallery_command;
 extern const Command inspect_command;
+extern const Command propagate_command;
 extern const Command score_command;
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all = {inspect_command, check_command, score_command};
+  static const std::vector<Command> all = {inspect_command, propagate_command, check_command, score_command,
+                                           gallery_command};
   return all;
 }
 

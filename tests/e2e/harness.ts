@@ -42,8 +42,10 @@ export async function serve(): Promise<{ url: string; server: Server }> {
 }
 
 export function launch(extraArguments: string[] = []): Promise<Browser> {
-  const executablePath = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
-  if (executablePath === undefined) throw new Error('no Chromium found: apt-get install chromium');
+  const folders = (process.env['PATH'] ?? '').split(':');
+  const candidates = ['chromium', 'google-chrome'].flatMap((name) => folders.map((folder) => join(folder, name)));
+  const executablePath = candidates.find(existsSync);
+  if (executablePath === undefined) throw new Error('no Chromium on the PATH: apt-get install chromium');
   return chromium.launch({
     executablePath,
     headless: true,
@@ -82,7 +84,7 @@ export async function openPage(
   });
   await page.exposeFunction('reportViolation', (text: string) => complaints.push(`policy violation: ${text}`));
   await page.addInitScript(() => {
-    addEventListener('securitypolicyviolation', (event) => {
+    document.addEventListener('securitypolicyviolation', (event) => {
       const report = (window as unknown as { reportViolation(text: string): void }).reportViolation;
       report(`${event.violatedDirective} blocked ${event.blockedURI}`);
     });

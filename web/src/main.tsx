@@ -1,11 +1,15 @@
 import { render } from 'preact';
+import { start } from './session/core';
+import { exposeForDebugging } from './session/debug';
 import { App } from './ui/App';
 import { detectSupport, missingSupport } from './ui/support';
 
 const root = document.getElementById('app');
 if (root === null) throw new Error('index.html has no #app');
 
+exposeForDebugging();
 const missing = missingSupport(detectSupport());
+if (missing === null) void start();
 render(
   missing === null ? (
     <App />

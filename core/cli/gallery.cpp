@@ -1,0 +1,43 @@
+// `parsel gallery DIR`: writes every gallery model and a list of them.
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "core/cli/command.h"
+#include "core/gallery/gallery.h"
+
+namespace parsel::cli {
+namespace {
+
+int run(const Arguments& arguments) {
+  if (arguments.positional.size() != 1) return misuse("gallery takes one folder, which must exist");
+  const std::string& folder = arguments.positional.front();
+  nlohmann::json list = nlohmann::json::array();
+  for (const GalleryModel& model : gallery_models()) {
+    const Result<GalleryAsset> asset = build(model);
+    if (!asset) return refuse(asset.error());
+    const std::string file = model.id + ".glb";
+    const Status written = write_file(folder + "/" + file, asset->glb);
+    if (!written) return refuse(written.error());
+    nlohmann::json requests = nlohmann::json::array();
+    for (const GalleryEdit& edit : asset->edits) requests.push_back(edit.request);
+    list.push_back({{"id", model.id},
+                    {"title", model.title},
+                    {"file", file},
+                    {"bytes", asset->glb.size()},
+                    {"parts", asset->parts.size()},
+                    {"requests", std::move(requests)}});
+  }
+  const Status written = write_file(folder + "/gallery.json", list.dump(1) + "\n");
+  if (!written) return refuse(written.error());
+  std::cout << nlohmann::json{{"folder", folder}, {"models", list.size()}}.dump(1) << '\n';
+  return exit_done;
+}
+
+}  // namespace
+
+extern const Command gallery_command;
+const Command gallery_command = {
+    "gallery", "DIR", "Writes every gallery model as DIR/<id>.glb and the list of them as DIR/gallery.json.",
+    {},        {},    run};
+
+}  // namespace parsel::cli

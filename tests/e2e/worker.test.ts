@@ -1,0 +1,74 @@
+// The real worker in the real browser: cancel, abort, out of memory. `?debug` hands the page's core to the console.
+import type { Server } from 'node:http';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { DebugHandle } from '../../web/src/session/debug';
+import { launch, openPage, serve } from './harness';
+
+let server: Server;
+let browser: Browser;
+let page: Page;
+let complaints: string[];
+beforeAll(async () => {
+  const served = await serve();
+  server = served.server;
+  browser = await launch();
+  ({ page, complaints } = await openPage(browser, `${served.url}?debug`));
+  await page.getByTestId('solution').waitFor();
+});
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+declare const parsel: DebugHandle;
+
+describe('the worker', () => {
+  it('is replaced within 200 ms when a call is cancelled', async () => {
+    const measured = await page.evaluate(async () => {
+      const client = parsel.client();
+      const controller = new AbortController();
+      const hanging = client.call('fail', { kind: 'hang' }, { signal: controller.signal }).catch((e: Error) => e.name);
+      await new Promise((resolve) => setTimeout(resolve, 100)); // let it hang for real
+      const begin = performance.now();
+      controller.abort();
+      const outcome = await hanging;
+      const { result } = await client.call('version', {});
+      return { outcome, version: result.version, milliseconds: performance.now() - begin };
+    });
+    expect(measured.outcome).toBe('AbortError');
+    expect(measured.version).toMatch(/^\d+\.\d+\.\d+$/);
+    process.stdout.write(`cancel to next answer: ${measured.milliseconds.toFixed(0)} ms\n`);
+    // The limit is 200 ms on a free machine; the test allows for a busy one.
+    expect(measured.milliseconds).toBeLessThan(2000);
+  });
+
+  it.each(['abort', 'memory'] as const)('survives: %s', async (kind) => {
+    const { message, version } = await page.evaluate(async (how) => {
+      const client = parsel.client();
+      const failure = await client.call('fail', { kind: how }).catch((e: Error) => e.message);
+      const { result } = await client.call('version', {});
+      return { message: failure, version: result.version };
+    }, kind);
+    expect(message).toMatch(/the core stopped unexpectedly|not enough memory/);
+    expect(message).toMatch(/try/);
+    expect(version).toMatch(/^\d+\.\d+\.\d+$/);
+  });
+
+  it('turns an exception inside the core into an error, without a new worker', async () => {
+    const { message, respawns } = await page.evaluate(async () => {
+      const client = parsel.client();
+      const before = client.respawns;
+      const failure = await client.call('fail', { kind: 'exception' }).catch((e: Error) => e.message);
+      return { message: failure, respawns: client.respawns - before };
+    });
+    expect(message).toMatch(/asked to fail/);
+    expect(respawns).toBe(0);
+  });
+
+  it('leaves the page working', async () => {
+    await page.getByRole('slider').fill('0.1');
+    expect(await page.getByTestId('angle').textContent()).toBe('45.6°');
+    expect(complaints).toEqual([]);
+  });
+});

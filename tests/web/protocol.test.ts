@@ -1,0 +1,66 @@
+// The two sides of the boundary must not drift: every method that the module has is typed in protocol.ts and the other
+// way round, and what the module really answers fits the types.
+import { readFile } from 'node:fs/promises';
+import { fileURLToPath } from 'node:url';
+import * as v from 'valibot';
+import { beforeAll, describe, expect, it } from 'vitest';
+import { errorSchema, type Method, methodSchemas } from '../../web/src/worker/protocol';
+import { type LoadedModule, loadModule } from './module';
+
+let core: LoadedModule;
+beforeAll(async () => {
+  core = await loadModule();
+});
+
+function invoke(method: string, parameters: unknown, buffers: Uint8Array[] = []) {
+  const reply = core.invoke(method, JSON.stringify(parameters), buffers, null);
+  return { message: JSON.parse(reply.json) as unknown, buffers: reply.buffers };
+}
+
+describe('the boundary between the page and the core', () => {
+  it('has the same methods on both sides', () => {
+    expect([...core.methods()].sort()).toEqual(Object.keys(methodSchemas).sort());
+  });
+
+  const examples: Partial<Record<Method, unknown>> = {
+    version: {},
+    warm_up: {},
+    solve: { equation: '2*y - x', unknown: 'y' },
+  };
+  it.each(Object.entries(examples))('%s answers what its type says', (method, parameters) => {
+    v.parse(methodSchemas[method as Method].parameters, parameters);
+    const { message } = invoke(method, parameters);
+    const { result } = v.parse(v.strictObject({ result: v.unknown() }), message);
+    v.parse(methodSchemas[method as Method].result, result);
+  });
+
+  it('answers with the version of the project', async () => {
+    const cmake = await readFile(fileURLToPath(new URL('../../CMakeLists.txt', import.meta.url)), 'utf8');
+    expect(invoke('version', {}).message).toEqual({ result: { version: cmake.match(/VERSION (\d+\.\d+\.\d+)/)?.[1] } });
+  });
+
+  it('solves with GiNaC', () => {
+    expect(invoke('solve', { equation: '2*y - x', unknown: 'y' }).message).toEqual({
+      result: { solutions: ['0.5*x'] },
+    });
+  });
+
+  it.each([
+    ['an unknown method', 'no_such_method', {}],
+    ['parameters that are no object', 'version', 3],
+    ['an exception inside the core', 'fail', { kind: 'exception' }],
+    ['an equation that is none', 'solve', { equation: '2*(y', unknown: 'y' }],
+    ['an unknown that is no name', 'solve', { equation: '2*y', unknown: '2' }],
+    ['a missing parameter', 'solve', { equation: '2*y' }],
+    ['a parameter of another type', 'solve', { equation: 7, unknown: 'y' }],
+  ])('answers %s with an error value', (_, method, parameters) => {
+    const { error } = v.parse(v.strictObject({ error: errorSchema }), invoke(method, parameters).message);
+    expect(error.cause).not.toBe('');
+    expect(error.fix).not.toBe('');
+  });
+
+  it('still works after an exception', () => {
+    invoke('fail', { kind: 'exception' });
+    expect(invoke('version', {}).message).toHaveProperty('result.version');
+  });
+});
