@@ -1,0 +1,50 @@
+#include "core/cli/input.h"
+
+#include "core/cli/command.h"
+#include "core/cli/model.h"
+#include "core/cli/program_file.h"
+
+namespace parsel::cli {
+
+namespace {
+
+Error at_path(Error error, const std::string& path) {
+  if (error.place != path) error.place = path + (error.place.empty() ? "" : ", " + error.place);
+  return error;
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+}  // namespace
+
+Result<nlohmann::json> read_json(const std::string& path) {
+  const Result<std::string> text = read_file(path);
+  if (!text) return text.error();
+  nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
+  if (json.is_discarded()) return Error{"cli", path, "the file is not JSON", "check that it is complete"};
+  return json;
+}
+
+Result<Shape> read_shape(const std::string& path) {
+  if (!ends_with(path, ".json")) {
+    Result<Model> model = load_model(path);
+    if (!model) return model.error();
+    return std::move(model->abstraction.shape);
+  }
+  const Result<nlohmann::json> json = read_json(path);
+  if (!json) return json.error();
+  Result<Shape> shape = shape_from_json(*json);
+  if (!shape) return at_path(shape.error(), path);
+  return shape;
+}
+
+Result<Program> read_program(const std::string& path, const Shape& shape) {
+  Result<ProgramFile> file = load_program(path);
+  if (!file) return at_path(file.error(), path);
+  if (const Status valid = validate(file->program, shape); !valid) return at_path(valid.error(), path);
+  return std::move(file->program);
+}
+
+}  // namespace parsel::cli

@@ -1,0 +1,21 @@
+// Reads what several commands take: a model's shape, a program for it, JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/edit/program.h"
+#include "core/shape/shape.h"
+
+namespace parsel::cli {
+
+/// The shape of a .glb or .gltf model, or one that `parsel inspect` wrote (.json).
+Result<Shape> read_shape(const std::string& path);
+
+Result<nlohmann::json> read_json(const std::string& path);
+
+/// A program (JSON or text) that passes validate() for the shape. Error places begin with the path.
+Result<Program> read_program(const std::string& path, const Shape& shape);
+
+}  // namespace parsel::cli

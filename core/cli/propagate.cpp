@@ -1,0 +1,49 @@
+// parsel propagate: from seed edits to a whole editing program.
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "core/cli/command.h"
+#include "core/cli/model.h"
+#include "core/propagate/propagate.h"
+
+namespace parsel::cli {
+namespace {
+
+int run(const Arguments& arguments) {
+  if (arguments.positional.size() != 2) return misuse("propagate takes a model and an edit");
+  const Result<Model> model = load_model(arguments.positional[0]);
+  if (!model.ok()) return refuse(model.error());
+  const std::string& path = arguments.positional[1];
+  const Result<std::string> text = read_file(path);
+  if (!text.ok()) return refuse(text.error());
+  const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
+  if (json.is_discarded()) return refuse({"cli/propagate", path, "the file is not JSON", "check its brackets and commas"});
+  const Result<EditRequest> request = edit_request_from_json(json);
+  if (!request.ok()) return refuse(request.error());
+  PropagateOptions options;
+  options.request = arguments.option("--request");
+  options.neighbour_edits = !arguments.has("--no-neighbour-edits");
+  options.breaking_edits = !arguments.has("--no-breaking-edits");
+  const Result<Propagation> found = propagate(model->abstraction.shape, *request, options);
+  if (!found.ok()) return refuse(found.error());
+  if (arguments.has("--trace")) {
+    const std::string trace = to_json(found->trace).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    if (const Status written = write_file(arguments.option("--trace"), trace); !written.ok()) return refuse(written.error());
+  }
+  for (const std::string& note : found->trace.notes) std::cerr << "note: " << note << '\n';
+  return write_json(arguments, to_json(found->program));
+}
+
+}  // namespace
+
+extern const Command propagate_command;
+const Command propagate_command = {
+    "propagate",
+    "MODEL.glb EDIT.json [-o PROGRAM.json] [--trace TRACE.json] [--request TEXT] [--no-neighbour-edits] "
+    "[--no-breaking-edits]",
+    "Finds the edits that follow from seed edits, as a program (--trace: and why).",
+    {"-o", "--trace", "--request"},
+    {"--no-neighbour-edits", "--no-breaking-edits"},
+    run};
+
+}  // namespace parsel::cli

@@ -1,0 +1,164 @@
+#include "core/propagate/closed_form.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/tolerance.h"
+#include "core/edit/amount.h"
+#include "core/edit/amount_functions.h"
+#include "core/propagate/solve.h"
+
+namespace parsel {
+
+using GiNaC::ex;
+
+namespace {
+
+double largest_difference(const Samples& a, const Samples& b) {
+  double worst = 0;
+  for (std::size_t s = 0; s < sample_count; ++s) worst = std::max(worst, std::abs(a[s] - b[s]));
+  return worst;
+}
+
+/// Amounts that agree to this are the same closed form; the fit itself is good to about 1e-12.
+constexpr double same = 1e-7;
+
+}  // namespace
+
+std::vector<ClosedForm> driving_amounts(const std::vector<PointConstraint>& constraints, const Edits& edits) {
+  std::vector<ClosedForm> driving;
+  std::vector<PartIndex> seen;
+  for (const PointConstraint& constraint : constraints) {
+    if (std::find(seen.begin(), seen.end(), constraint.other) != seen.end()) continue;
+    seen.push_back(constraint.other);
+    for (const Step& step : edits[constraint.other]->steps) {
+      ClosedForm form{step.amount, step.values};
+      if (step.what.op == Op::change_count) {
+        form.expression = real_floor(step.amount).hold();
+        for (double& value : form.values) value = std::floor(value + noise);
+      }
+      const auto equals = [&form](const ClosedForm& other) { return largest_difference(form.values, other.values) < noise; };
+      if (std::none_of(driving.begin(), driving.end(), equals)) driving.push_back(std::move(form));
+    }
+  }
+  return driving;
+}
+
+std::optional<Samples> sampled(const ex& expression, const std::string& parameter, const Samples& at) {
+  const CompiledAmount compiled = Amount(expression).compile({parameter});
+  Samples values;
+  for (std::size_t s = 0; s < sample_count; ++s) {
+    values[s] = compiled(&at[s]);
+    if (!std::isfinite(values[s])) return std::nullopt;
+  }
+  return values;
+}
+
+AmountSolver::AmountSolver(const std::vector<PointConstraint>& constraints, const Edits& edits, SymbolicGoals& goals,
+                           std::string parameter, const Samples& at)
+    : constraints_(constraints),
+      goals_(goals),
+      parameter_(std::move(parameter)),
+      at_(at),
+      driving_(driving_amounts(constraints, edits)) {}
+
+std::optional<ClosedForm> AmountSolver::solve(const Candidate& candidate, const Samples& wanted) {
+  if (auto form = proportional(candidate, wanted)) return form;
+  if (candidate.what.op == Op::rotate) {
+    if (auto form = from_equation(candidate, wanted)) return form;
+    return from_angle(candidate, wanted);
+  }
+  return from_equation(candidate, wanted);
+}
+
+std::optional<ClosedForm> AmountSolver::proportional(const Candidate& candidate, const Samples& wanted) const {
+  for (const ClosedForm& drive : driving_) {
+    double dot = 0;
+    double square = 0;
+    for (std::size_t s = 0; s < sample_count; ++s) {
+      dot += wanted[s] * drive.values[s];
+      square += drive.values[s] * drive.values[s];
+    }
+    if (square < noise * noise) continue;
+    const double factor = dot / square;
+    Samples product;
+    for (std::size_t s = 0; s < sample_count; ++s) product[s] = factor * drive.values[s];
+    if (largest_difference(product, wanted) > same) continue;
+    return accept(number(factor) * drive.expression, candidate, wanted);
+  }
+  return std::nullopt;
+}
+
+std::optional<ClosedForm> AmountSolver::accept(const ex& expression, const Candidate& candidate,
+                                               const Samples& wanted) const {
+  // The plainest form that moves no point noticeably; lever and field are both per unit of the amount.
+  const double reach = candidate.field.cwiseAbs().maxCoeff();
+  for (const double tolerance : {1e-3, 1e-5, 1e-8}) {
+    const ex simple = Amount(expression).simplified(tolerance).expression();
+    if (!simple.has(parameter_symbol(parameter_))) continue;
+    const auto values = sampled(simple, parameter_, at_);
+    if (values && largest_difference(*values, wanted) * reach <= simplification_slack) return ClosedForm{simple, *values};
+  }
+  const auto values = sampled(expression, parameter_, at_);
+  if (!values || largest_difference(*values, wanted) * reach > simplification_slack) return std::nullopt;
+  if (!expression.has(parameter_symbol(parameter_))) return std::nullopt;
+  return ClosedForm{expression, *values};
+}
+
+std::size_t AmountSolver::strongest(const Candidate& candidate) const {
+  std::size_t best = 0;
+  double largest = -1;
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    Vec3 v = interpolate(constraints_[i].weights, candidate.field);
+    if (candidate.what.op == Op::rotate) v -= candidate.what.direction.dot(v) * candidate.what.direction;
+    if (v.norm() > largest * (1 + 1e-9)) {
+      largest = v.norm();
+      best = i;
+    }
+  }
+  return best;
+}
+
+std::optional<ClosedForm> AmountSolver::from_equation(const Candidate& candidate, const Samples& wanted) {
+  const GiNaC::realsymbol unknown("amount");
+  const std::size_t i = strongest(candidate);
+  const Vec3 v = interpolate(constraints_[i].weights, candidate.field);
+  const Vec3& axis = candidate.what.direction;
+  const bool rotates = candidate.what.op == Op::rotate;
+  const Vec3 sine = rotates ? turned(v, axis, pi / 2) + (v - axis.dot(v) * axis) : v;
+  const Vec3 cosine = v - axis.dot(v) * axis;
+  // The coordinate that the amount moves most: the best-conditioned of the point's three equations.
+  std::array<int, 3> order = {0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(sine[a]) > std::abs(sine[b]); });
+  for (const int c : order) {
+    if (std::abs(sine[c]) < 1e-6) break;
+    const ex goal = goals_(constraints_[i], static_cast<std::size_t>(c));
+    const ex moved = rotates ? ex(number(sine[c]) * GiNaC::sin(unknown) + number(cosine[c]) * (GiNaC::cos(unknown) - 1))
+                             : ex(number(sine[c]) * unknown);
+    for (const ex& root : solve_for(moved - goal, unknown).roots) {
+      const auto values = sampled(root, parameter_, at_);
+      if (!values || largest_difference(*values, wanted) > simplification_slack) continue;
+      if (auto form = accept(root, candidate, wanted)) return form;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<ClosedForm> AmountSolver::from_angle(const Candidate& candidate, const Samples& wanted) {
+  // The turn that takes the lever m to m + r: atan2(axis·(m × (m + r)), m·(m + r)).
+  const std::size_t i = strongest(candidate);
+  const Vec3& axis = candidate.what.direction;
+  const Vec3 v = interpolate(constraints_[i].weights, candidate.field);
+  const Vec3 lever = v - axis.dot(v) * axis;
+  const Vec3 quarter = turned(v, axis, pi / 2) + lever;
+  ex y = 0;
+  ex x = number(lever.squaredNorm());
+  for (std::size_t c = 0; c < 3; ++c) {
+    const ex goal = goals_(constraints_[i], c);
+    y += number(quarter[static_cast<int>(c)]) * goal;
+    x += number(lever[static_cast<int>(c)]) * goal;
+  }
+  return accept(GiNaC::atan2(y.expand(), x.expand()), candidate, wanted);
+}
+
+}  // namespace parsel

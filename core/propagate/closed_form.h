@@ -1,0 +1,53 @@
+// From the numeric fit of a candidate to its amount in closed form. ParSEL §5.3, algorithm 3.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/propagate/screen.h"
+
+namespace parsel {
+
+/// Simplifying an amount may move a point by this much, half-diagonals.
+inline constexpr double simplification_slack = 5e-4;
+
+/// An amount as expression and samples.
+struct ClosedForm {
+  GiNaC::ex expression;
+  Samples values{};
+};
+
+/// What the edits of the neighbours in the constraints move by: their amounts, rounded down for change_count. Without
+/// repetition.
+std::vector<ClosedForm> driving_amounts(const std::vector<PointConstraint>& constraints, const Edits& edits);
+
+/// Values of an expression of `parameter` at the samples; nothing when it is undefined at one.
+std::optional<Samples> sampled(const GiNaC::ex& expression, const std::string& parameter, const Samples& at);
+
+class AmountSolver {
+ public:
+  AmountSolver(const std::vector<PointConstraint>& constraints, const Edits& edits, SymbolicGoals& goals,
+               std::string parameter, const Samples& at);
+
+  /// The closed form of the amount with which `candidate` fits the constraints, shortened within simplification_slack;
+  /// nothing when none is found. In most chains the goals are multiples of one driving amount, and then so is the
+  /// solution: its factor follows from the fit. Otherwise a scalar equation is solved (solve.h).
+  std::optional<ClosedForm> solve(const Candidate& candidate, const Samples& wanted);
+  /// The same from the driving amounts alone, for a pair of candidates.
+  std::optional<ClosedForm> proportional(const Candidate& candidate, const Samples& wanted) const;
+
+ private:
+  std::optional<ClosedForm> from_equation(const Candidate& candidate, const Samples& wanted);
+  std::optional<ClosedForm> from_angle(const Candidate& candidate, const Samples& wanted);
+  std::optional<ClosedForm> accept(const GiNaC::ex& expression, const Candidate& candidate, const Samples& wanted) const;
+  std::size_t strongest(const Candidate& candidate) const;
+
+  const std::vector<PointConstraint>& constraints_;
+  SymbolicGoals& goals_;
+  std::string parameter_;
+  Samples at_;
+  std::vector<ClosedForm> driving_;
+};
+
+}  // namespace parsel

@@ -1,0 +1,258 @@
+#include "core/propagate/edit_request.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/base/tolerance.h"
+#include "core/propagate/transfer.h"
+
+namespace parsel {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* stage = "propagate/edit_request";
+constexpr std::size_t largest_count = 10000;
+
+Error refused(std::string place, std::string cause, std::string fix) {
+  return {stage, std::move(place), std::move(cause), std::move(fix)};
+}
+
+std::string pointer(const std::string& parent, const std::string& key) {
+  std::string escaped;
+  for (const char c : key.substr(0, 64)) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return parent + "/" + escaped;
+}
+
+/// The statements are those of a program's layer: its reader checks them.
+Result<std::vector<Statement>> read_seed(const json& seed) {
+  const json program = {
+      {"format", "parsel/program"},
+      {"version", 1},
+      {"shape", {{"name", ""}, {"sha256", ""}}},
+      {"layers",
+       {{{"request", ""},
+         {"parameter", {{"name", edit_parameter}, {"min", -tau}, {"max", tau}, {"value", 0}}},
+         {"statements", seed},
+         {"relations", json::array()}}}}};
+  auto read = program_from_json(program);
+  if (read.ok()) return std::move(read.value().layers[0].statements);
+  Error error = read.error();
+  const std::string prefix = "/layers/0/statements";
+  if (error.place.rfind(prefix, 0) == 0) error.place = "/seed" + error.place.substr(prefix.size());
+  error.stage = stage;
+  return error;
+}
+
+Result<std::vector<std::string>> read_strings(const json& list, const std::string& place) {
+  if (!list.is_array()) return refused(place, "is not a list", "write a list of relation ids");
+  if (list.size() > largest_count) return refused(place, "has too many entries", "list at most 10000");
+  std::vector<std::string> strings;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].is_string()) {
+      return refused(pointer(place, std::to_string(i)), "is not a text", "write a relation's id or kind:<kind>");
+    }
+    strings.push_back(list[i].get<std::string>());
+  }
+  return strings;
+}
+
+Result<std::map<std::string, Hint>> read_hints(const json& hints) {
+  if (!hints.is_object()) return refused("/hints", "is not an object", "write {\"part id\": \"translate\"}");
+  if (hints.size() > largest_count) return refused("/hints", "has too many entries", "give at most 10000");
+  std::map<std::string, Hint> result;
+  for (const auto& [part, value] : hints.items()) {
+    const auto hint = value.is_string() ? hint_from_string(value.get_ref<const std::string&>()) : std::nullopt;
+    if (!hint) {
+      return refused(pointer("/hints", part), "is no kind of edit",
+                     "use translate, rotate, scale, shear, change_count, change_delta or keep_fixed");
+    }
+    result.emplace(part, *hint);
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<EditRequest> edit_request_from_json(const json& input) {
+  if (!input.is_object()) return refused("", "the edit is not a JSON object", "write {\"seed\": [...]}");
+  for (const auto& [key, value] : input.items()) {
+    if (key == "format" && value != "parsel/edit") return refused("/format", "is not parsel/edit", "check the file");
+    if (key == "version" && value != 1) return refused("/version", "is not 1", "use a version that this program knows");
+    if (key != "seed" && key != "disabled" && key != "hints" && key != "format" && key != "version") {
+      return refused(pointer("", key), "is no field of an edit", "use seed, disabled and hints only");
+    }
+  }
+  if (!input.contains("seed") || !input["seed"].is_array() || input["seed"].empty()) {
+    return refused("/seed", "there is no seed edit", "give a list of at least one statement");
+  }
+  if (input["seed"].size() > largest_count) return refused("/seed", "has too many statements", "give at most 10000");
+  EditRequest request;
+  auto seed = read_seed(input["seed"]);
+  if (!seed.ok()) return seed.error();
+  request.seed = std::move(seed.value());
+  if (input.contains("disabled")) {
+    auto disabled = read_strings(input["disabled"], "/disabled");
+    if (!disabled.ok()) return disabled.error();
+    request.disabled = std::move(disabled.value());
+  }
+  if (input.contains("hints")) {
+    auto hints = read_hints(input["hints"]);
+    if (!hints.ok()) return hints.error();
+    request.hints = std::move(hints.value());
+  }
+  return request;
+}
+
+json to_json(const EditRequest& request) {
+  Program program;
+  program.layers.emplace_back();
+  program.layers[0].parameter = {edit_parameter, -tau, tau, 0};
+  program.layers[0].statements = request.seed;
+  json hints = json::object();
+  for (const auto& [part, hint] : request.hints) hints[part] = to_string(hint);
+  return {{"format", "parsel/edit"},
+          {"version", 1},
+          {"seed", to_json(program)["layers"][0]["statements"]},
+          {"disabled", request.disabled},
+          {"hints", hints}};
+}
+
+namespace {
+
+/// Replaces node:<index> by ids in a statement's references; the place of the first unknown part otherwise.
+Status resolve_names(Statement& statement, const Shape& shape, const std::string& place) {
+  const auto rename = [&](std::string& id, const char* field) -> Status {
+    const auto part = shape.find_part(id);
+    if (!part) {
+      return refused(pointer(place, field), "the shape has no part '" + id.substr(0, 64) + "'",
+                     "name a part that `parsel inspect` lists");
+    }
+    id = shape.parts[*part].id;
+    return success();
+  };
+  if (is_geometric(statement.op)) {
+    if (Status s = rename(statement.part, "part"); !s.ok()) return s;
+  } else {
+    const auto relation = shape.find_relation(statement.relation);
+    if (!relation) {
+      return refused(pointer(place, "relation"), "the shape has no relation '" + statement.relation.substr(0, 64) + "'",
+                     "name a relation that `parsel inspect` lists");
+    }
+    if (!shape.relations[*relation].is_group()) {
+      return refused(pointer(place, "relation"), "'" + statement.relation + "' is no translation or rotation",
+                     "change count and spacing of groups only");
+    }
+  }
+  if (statement.origin) {
+    if (auto* point = std::get_if<PartPoint>(&*statement.origin)) {
+      if (Status s = rename(point->part, "origin"); !s.ok()) return s;
+    }
+  }
+  if (statement.direction) {
+    if (auto* axis = std::get_if<PartAxis>(&*statement.direction)) {
+      if (Status s = rename(axis->part, "direction"); !s.ok()) return s;
+    }
+  }
+  if (statement.normal) {
+    if (auto* axis = std::get_if<PartAxis>(&*statement.normal)) {
+      if (Status s = rename(axis->part, "normal"); !s.ok()) return s;
+    }
+  }
+  return success();
+}
+
+Status check_fields(const Statement& statement, const std::string& place) {
+  const std::string op(to_string(statement.op));
+  if (needs_origin(statement.op) && !statement.origin) return refused(place, op + " has no origin", "give an origin");
+  if (needs_direction(statement.op) && !statement.direction) {
+    return refused(place, op + " has no direction", "give a direction or axis");
+  }
+  if (needs_normal(statement.op) && !statement.normal) return refused(place, op + " has no normal", "give a normal");
+  for (const auto& direction : {statement.direction, statement.normal}) {
+    const Vec3* literal = direction ? std::get_if<Vec3>(&*direction) : nullptr;
+    if (literal && !(literal->norm() > 1e-9)) return refused(place, "a direction has no length", "give a non-zero vector");
+  }
+  if (statement.op == Op::keep_fixed) return success();
+  const std::vector<std::string> names = statement.amount.parameters();
+  if (names.empty()) {
+    return refused(pointer(place, "amount"), "does not contain the parameter x", "write an amount such as x or 2*x");
+  }
+  if (names != std::vector<std::string>{edit_parameter}) {
+    return refused(pointer(place, "amount"), "contains another parameter than x", "write it in x alone");
+  }
+  return success();
+}
+
+Status resolve_disabled(const EditRequest& request, const Shape& shape, ResolvedRequest& resolved) {
+  for (std::size_t i = 0; i < request.disabled.size(); ++i) {
+    const std::string& id = request.disabled[i];
+    const std::string place = "/disabled/" + std::to_string(i);
+    if (id.rfind("kind:", 0) == 0) {
+      const auto kind = relation_kind(std::string_view(id).substr(5));
+      if (!kind) return refused(place, "is no kind of relation", "use kind:reflection, kind:translation, kind:rotation, …");
+      for (const RelationIndex r : shape.relations.indices()) {
+        if (shape.relations[r].kind == *kind) resolved.disabled.insert(r);
+      }
+      continue;
+    }
+    const auto relation = shape.find_relation(id);
+    if (!relation) {
+      return refused(place, "the shape has no relation '" + id.substr(0, 64) + "'",
+                     "name a relation that `parsel inspect` lists, or kind:<kind>");
+    }
+    resolved.disabled.insert(*relation);
+  }
+  return success();
+}
+
+Status resolve_hints(const EditRequest& request, const Shape& shape, ResolvedRequest& resolved) {
+  for (const auto& [id, hint] : request.hints) {
+    const auto part = shape.find_part(id);
+    if (!part) {
+      return refused(pointer("/hints", id), "the shape has no such part", "name a part that `parsel inspect` lists");
+    }
+    const auto [known, is_new] = resolved.hints.emplace(*part, hint);
+    if (!is_new && known->second != hint) {
+      return refused(pointer("/hints", id), "the part has another hint under its other name", "keep one of the two");
+    }
+  }
+  return success();
+}
+
+}  // namespace
+
+Result<ResolvedRequest> resolve(const EditRequest& request, const Shape& shape) {
+  ResolvedRequest resolved;
+  if (Status s = resolve_disabled(request, shape, resolved); !s.ok()) return s.error();
+  if (Status s = resolve_hints(request, shape, resolved); !s.ok()) return s.error();
+  std::set<RelationIndex> dissolved;
+  for (const RelationIndex r : resolved.disabled) {
+    if (shape.relations[r].is_group()) dissolved.insert(r);
+  }
+  std::set<RelationIndex> as_group;
+  for (std::size_t i = 0; i < request.seed.size(); ++i) {
+    Statement statement = request.seed[i];
+    const std::string place = "/seed/" + std::to_string(i);
+    if (Status s = resolve_names(statement, shape, place); !s.ok()) return s.error();
+    if (Status s = check_fields(statement, place); !s.ok()) return s.error();
+    const auto part = part_of(shape, statement);
+    PARSEL_ASSERT(part.has_value(), "names were resolved");
+    if (const auto group = shape.parts[*part].group) {
+      (shape.parts[*part].is_virtual() ? as_group : dissolved).insert(*group);
+    }
+    resolved.seed.push_back(std::move(statement));
+    resolved.seed_parts.push_back(*part);
+  }
+  for (const RelationIndex group : as_group) {
+    if (dissolved.count(group) == 0) continue;
+    return refused("/seed", "group '" + shape.relations[group].id + "' is edited as one, but its instances are on their own",
+                   "edit the group or its instances, not both, and do not disable a group that you edit");
+  }
+  resolved.dissolved.assign(dissolved.begin(), dissolved.end());
+  resolved.disabled.insert(dissolved.begin(), dissolved.end());
+  return resolved;
+}
+
+}  // namespace parsel

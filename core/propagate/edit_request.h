@@ -1,0 +1,45 @@
+// What propagation starts from: seed edits, relations that shall not count, and hints. Format `parsel/edit` v1:
+//   {"seed": [statements, amounts in x], "disabled": ["r1", "kind:reflection"], "hints": {"part id": "translate"}}
+// "disabled" and "hints" may be left out, as may "format": "parsel/edit" with "version": 1. A part is named by its id or by
+// node:<glTF node index>.
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/edit/program.h"
+#include "core/propagate/candidates.h"
+
+namespace parsel {
+
+/// The parameter in the amounts of an edit request.
+inline constexpr const char* edit_parameter = "x";
+
+/// Well-formed, but not checked against any shape.
+struct EditRequest {
+  std::vector<Statement> seed;  ///< at least one
+  std::vector<std::string> disabled;
+  std::map<std::string, Hint> hints;
+};
+
+/// Untrusted JSON → request. Unknown keys are refused by name. Error place is a JSON pointer: "/seed/0/amount".
+Result<EditRequest> edit_request_from_json(const nlohmann::json& json);
+nlohmann::json to_json(const EditRequest& request);
+
+/// A request with its names looked up in a shape.
+struct ResolvedRequest {
+  std::vector<Statement> seed;           ///< node:… replaced by ids
+  std::vector<PartIndex> seed_parts;     ///< whose corners seed[i] moves; the parent for group operators
+  std::set<RelationIndex> disabled;      ///< reflections and attachments; with the group relations that are dissolved
+  std::vector<RelationIndex> dissolved;  ///< groups that a seed on an instance, or "disabled", takes apart
+  std::map<PartIndex, Hint> hints;
+};
+
+/// Refuses unknown parts and relations, kinds and nodes, operators without the fields they need, amounts without the
+/// parameter, two different hints for one part, and seeds that treat a group both as one and as single instances.
+Result<ResolvedRequest> resolve(const EditRequest& request, const Shape& shape);
+
+}  // namespace parsel

@@ -1,0 +1,410 @@
+#include "core/propagate/propagate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/propagate/prove.h"
+#include "core/propagate/range.h"
+#include "core/propagate/transfer.h"
+
+namespace parsel {
+
+namespace {
+
+constexpr const char* stage = "propagate";
+/// A seed must be able to go at least this far to one side, as a share of the limit.
+constexpr double least_range = 0.02;
+
+Motion still() {
+  Motion motion;
+  motion.fill(Corners::Zero());
+  return motion;
+}
+
+bool is_alive(const Corners& corners, const Corners& rest) {
+  return corners.allFinite() && relative_jacobians(corners, rest).minCoeff() > collapse_ratio;
+}
+
+class Loop {
+ public:
+  Loop(const Shape& shape, ResolvedRequest request, const PropagateOptions& options, const Progress& progress)
+      : shape_(shape),
+        request_(std::move(request)),
+        options_(options),
+        progress_(progress),
+        graph_(shape, request_.dissolved, request_.disabled),
+        edits_(shape.parts.size()),
+        pulls_(shape.parts.size()),
+        goals_(graph_, edits_) {
+    solve_options_.neighbour_edits = options.neighbour_edits;
+    solve_options_.breaking_edits = options.breaking_edits;
+    solve_options_.exact = exact;
+    solve_options_.one_edited = delta_one_edited;
+    solve_options_.both_edited = delta_both_edited;
+    layer_.request = options.request;
+  }
+
+  Result<Propagation> run() {
+    if (Status status = apply_seeds(); !status.ok()) return status.error();
+    hold_fixed_parts();
+    int done = static_cast<int>(layer_.statements.size());
+    const int total = static_cast<int>(graph_.parts().size());
+    while (const auto next = next_part()) {
+      report(progress_, shape_.parts[*next].name, std::min(done++, total), total);
+      edit_part(*next);
+    }
+    note_fixed_parts();
+    note_unused_hints();
+    say_why_it_stopped();
+    return finish();
+  }
+
+ private:
+  const std::string& id(PartIndex part) const { return shape_.parts[part].id; }
+  const std::string& id(RelationIndex relation) const { return shape_.relations[relation].id; }
+
+  // ----- seeds
+
+  Status apply_seeds() {
+    const GiNaC::symbol& x = parameter_symbol(edit_parameter);
+    const GiNaC::symbol& own = parameter_symbol(options_.parameter);
+    std::vector<PartIndex> parts;
+    PartData<std::vector<Step>> steps(shape_.parts.size());
+    PartData<std::vector<int>> indices(shape_.parts.size());
+    for (std::size_t i = 0; i < request_.seed.size(); ++i) {
+      Statement statement = request_.seed[i];
+      statement.amount = Amount(statement.amount.expression().subs(x == own));
+      statement.why = Why{WhyKind::seed, {}};
+      const PartIndex part = request_.seed_parts[i];
+      if (std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
+      Step step = to_step(shape_, statement);
+      if (step.what.op != Op::keep_fixed) steps[part].push_back(std::move(step));
+      indices[part].push_back(static_cast<int>(layer_.statements.size()));
+      layer_.statements.push_back(std::move(statement));
+    }
+    if (Status status = find_working_range(parts, steps); !status.ok()) return status;
+    for (const PartIndex part : parts) {
+      for (Step& step : steps[part]) step.values = *sampled(step.amount, options_.parameter, at_);
+      TraceStep trace;
+      trace.part = id(part);
+      trace.kind = "seed";
+      trace.statements = indices[part];
+      trace.why = "the edit asked for";
+      edits_[part] = PartEdit{steps[part], motion_of(shape_, part, steps[part])};
+      trace_.steps.push_back(std::move(trace));
+    }
+    for (const PartIndex part : parts) pull_neighbours(part);
+    note_conflicts_of_seeds(parts);
+    return success();
+  }
+
+  /// The samples of the search lie where the seeds make sense: amounts defined, their parts neither inverted nor
+  /// collapsed.
+  Status find_working_range(const std::vector<PartIndex>& parts, const PartData<std::vector<Step>>& steps) {
+    constexpr int batches = 8;
+    constexpr int grid = batches * static_cast<int>(sample_count);
+    std::string culprit;
+    const auto reach = [&](double sign) {
+      for (int batch = 0; batch < batches; ++batch) {
+        Samples at;
+        for (std::size_t s = 0; s < sample_count; ++s) {
+          at[s] = sign * options_.limit * (batch * static_cast<int>(sample_count) + static_cast<int>(s) + 1) / grid;
+        }
+        std::size_t good = sample_count;
+        for (const PartIndex part : parts) {
+          std::vector<Step> sampled_steps = steps[part];
+          for (Step& step : sampled_steps) {
+            const CompiledAmount amount = Amount(step.amount).compile({options_.parameter});
+            for (std::size_t s = 0; s < sample_count; ++s) step.values[s] = amount(&at[s]);
+          }
+          const Corners& rest = shape_.parts[part].hexahedron.corners;
+          const Motion motion = motion_of(shape_, part, sampled_steps);
+          for (std::size_t s = 0; s < good; ++s) {
+            if (!is_alive(rest + motion[s], rest)) {
+              good = s;
+              culprit = id(part);
+            }
+          }
+        }
+        if (good < sample_count) return good == 0 ? (batch == 0 ? 0.0 : at[0] - sign * options_.limit / grid) : at[good - 1];
+      }
+      return sign * options_.limit;
+    };
+    const double high = reach(1);
+    const double low = reach(-1);
+    if (high - low < least_range * options_.limit) {
+      return Error{stage, "/seed", "the seed edit turns part '" + culprit + "' inside out, or is undefined, at once",
+                   "use a smaller or another amount"};
+    }
+    at_ = sample_points(low, high);
+    return success();
+  }
+
+  void note_conflicts_of_seeds(const std::vector<PartIndex>& parts) {
+    for (const PartIndex part : parts) {
+      for (const RelationIndex relation : graph_.relations(part)) {
+        const PartIndex other = graph_.other(relation, part);
+        if (other < part || !edits_[other]) continue;
+        std::vector<PointConstraint> constraints;
+        add_constraints(graph_, relation, part, edits_, constraints);
+        if (residuals(constraints, edits_[part]->motion)[0].second <= delta_both_edited) continue;
+        trace_.notes.push_back("the seed edits of " + id(part) + " and " + id(other) + " break " + id(relation) +
+                               " between them");
+      }
+    }
+  }
+
+  // ----- parts that a hint holds
+
+  void hold_fixed_parts() {
+    for (const auto& [part, hint] : request_.hints) {
+      if (hint != Hint::keep_fixed || edits_[part] || !is_in_graph(part)) continue;
+      edits_[part] = PartEdit{{}, still()};
+      held_.push_back(part);
+    }
+    // Their neighbours must respect them, but nothing is broken by them yet.
+    for (const PartIndex part : held_) pull_neighbours(part);
+  }
+
+  /// A held part that an edited neighbour pulls at gets its keep_fixed, so that the program shows the decision.
+  void note_fixed_parts() {
+    for (const PartIndex part : held_) {
+      std::vector<PointConstraint> constraints;
+      for (const RelationIndex relation : graph_.relations(part)) {
+        const PartIndex other = graph_.other(relation, part);
+        if (edits_[other] && !edits_[other]->steps.empty()) add_constraints(graph_, relation, part, edits_, constraints);
+      }
+      const RelationResiduals off = residuals(constraints, still());
+      TraceStep trace;
+      trace.part = id(part);
+      trace.kind = "keep_fixed";
+      trace.hint = "keep_fixed";
+      for (const auto& [relation, by] : off) {
+        trace.pulled_by.push_back({id(relation), by});
+        if (by > delta_one_edited) trace.left_broken.push_back(id(relation));
+      }
+      trace.result = trace.pulled_by;
+      trace.why = "a hint keeps it fixed";
+      if (!trace.left_broken.empty()) {
+        Why why{WhyKind::breaking, trace.left_broken};
+        trace.statements.push_back(add_keep_fixed(part, std::move(why)));
+      }
+      trace_.steps.push_back(std::move(trace));
+    }
+  }
+
+  void note_unused_hints() {
+    for (const auto& [part, hint] : request_.hints) {
+      const std::string words = "the hint " + std::string(to_string(hint)) + " for " + id(part);
+      if (!is_in_graph(part)) {
+        trace_.notes.push_back(words + (shape_.parts[part].is_virtual() ? " has no effect: the group is dissolved"
+                                                                        : " has no effect: its group is edited as one"));
+      } else if (std::find(request_.seed_parts.begin(), request_.seed_parts.end(), part) != request_.seed_parts.end()) {
+        trace_.notes.push_back(words + " has no effect: the part has a seed edit");
+      }
+    }
+  }
+
+  bool is_in_graph(PartIndex part) const {
+    return std::find(graph_.parts().begin(), graph_.parts().end(), part) != graph_.parts().end();
+  }
+
+  // ----- the loop
+
+  void pull_neighbours(PartIndex part) {
+    for (const RelationIndex relation : graph_.relations(part)) {
+      const PartIndex other = graph_.other(relation, part);
+      if (!edits_[other]) add_constraints(graph_, relation, other, edits_, pulls_[other]);
+    }
+  }
+
+  /// The unedited part with the most broken relations; one with a broken symmetry before any without.
+  std::optional<PartIndex> next_part() const {
+    std::optional<PartIndex> best;
+    std::pair<bool, int> most{false, 0};
+    for (const PartIndex part : graph_.parts()) {
+      if (edits_[part] || std::find(left_alone_.begin(), left_alone_.end(), std::pair(part, pulls_[part].size())) != left_alone_.end()) continue;
+      std::pair<bool, int> broken{false, 0};
+      for (const auto& [relation, by] : residuals(pulls_[part], still())) {
+        if (by <= exact) continue;
+        broken.first = broken.first || shape_.relations[relation].is_symmetry();
+        ++broken.second;
+      }
+      if (broken.second == 0) continue;
+      if (!best || broken > most || (broken == most && id(part) < id(*best))) {
+        best = part;
+        most = broken;
+      }
+    }
+    return best;
+  }
+
+  void edit_part(PartIndex part) {
+    TraceStep trace;
+    trace.part = id(part);
+    std::optional<Hint> hint;
+    if (const auto found = request_.hints.find(part); found != request_.hints.end()) {
+      hint = found->second;
+      trace.hint = to_string(*hint);
+    }
+    const std::vector<PointConstraint>& constraints = pulls_[part];
+    std::vector<std::string> broken;
+    for (const auto& [relation, by] : residuals(constraints, still())) {
+      trace.pulled_by.push_back({id(relation), by});
+      if (by > exact) broken.push_back(id(relation));
+    }
+    Solution solution;
+    std::vector<PartIndex> others = neighbours(part);
+    if (!mirror_neighbour(part, solution, trace)) {
+      const Scene scene{graph_, edits_, goals_, options_.parameter, at_, solve_options_};
+      solution = solve_part(scene, part, hint, constraints, trace);
+    }
+    if (solution.outcome == Outcome::left_alone) {
+      trace.kind = "left_alone";
+      trace.result = trace.pulled_by;
+      left_alone_.emplace_back(part, constraints.size());
+      trace_.steps.push_back(std::move(trace));
+      return;
+    }
+    const Motion motion = motion_of(shape_, part, solution.steps);
+    // A part that stays is one that is not edited, whose tolerance is the narrower.
+    const double allowed = solution.steps.empty() ? delta_one_edited : delta_both_edited;
+    for (const auto& [relation, by] : residuals(constraints, motion)) {
+      trace.result.push_back({id(relation), by});
+      if (by > allowed) trace.left_broken.push_back(id(relation));
+    }
+    if (solution.outcome == Outcome::keep_fixed) {
+      trace.kind = "keep_fixed";
+      trace.statements.push_back(add_keep_fixed(part, Why{WhyKind::breaking, trace.left_broken}));
+    } else {
+      trace.kind = kind_name(solution.kind);
+      for (const Step& step : solution.steps) {
+        Statement statement = to_statement(shape_, part, step, others);
+        statement.why = Why{solution.kind, broken};
+        trace.statements.push_back(static_cast<int>(layer_.statements.size()));
+        layer_.statements.push_back(std::move(statement));
+      }
+    }
+    edits_[part] = PartEdit{std::move(solution.steps), motion};
+    trace_.steps.push_back(std::move(trace));
+    pull_neighbours(part);
+  }
+
+  /// E* = T(E), of the first edited neighbour by reflection that has a mirror image here.
+  bool mirror_neighbour(PartIndex part, Solution& solution, TraceStep& trace) const {
+    for (const auto& [relation, by] : residuals(pulls_[part], still())) {
+      if (by <= exact || shape_.relations[relation].kind != RelationKind::reflection) continue;
+      const PartIndex other = graph_.other(relation, part);
+      auto steps = reflected(shape_, shape_.relations[relation], other, edits_[other]->steps);
+      if (!steps) continue;
+      trace.why = "mirrors " + id(other) + " (" + id(relation) + ")";
+      solution = {Outcome::solved, WhyKind::symmetry, std::move(*steps)};
+      return true;
+    }
+    return false;
+  }
+
+  std::vector<PartIndex> neighbours(PartIndex part) const {
+    std::vector<PartIndex> others;
+    for (const RelationIndex relation : graph_.relations(part)) others.push_back(graph_.other(relation, part));
+    return others;
+  }
+
+  int add_keep_fixed(PartIndex part, Why why) {
+    Statement statement;
+    statement.op = Op::keep_fixed;
+    statement.part = id(part);
+    statement.why = std::move(why);
+    layer_.statements.push_back(std::move(statement));
+    return static_cast<int>(layer_.statements.size()) - 1;
+  }
+
+  static std::string kind_name(WhyKind kind) {
+    switch (kind) {
+      case WhyKind::seed:
+        return "seed";
+      case WhyKind::symmetry:
+        return "symmetry";
+      case WhyKind::attachment:
+        return "attachment";
+      case WhyKind::neighbour:
+        return "neighbour";
+      case WhyKind::breaking:
+        return "breaking";
+      case WhyKind::group:
+        return "group";
+    }
+    return "";
+  }
+
+  // ----- the end
+
+  void say_why_it_stopped() {
+    std::size_t edited = 0;
+    bool touches = false;
+    for (const PartIndex part : graph_.parts()) {
+      edited += edits_[part].has_value();
+      touches = touches || !pulls_[part].empty();
+    }
+    if (edited == graph_.parts().size()) {
+      trace_.stop = "every part is edited";
+    } else if (touches) {
+      trace_.stop = "no relation between an edited and an unedited part is broken";
+    } else {
+      trace_.stop = "no relation ties the edited parts to any other part, so nothing follows them";
+    }
+  }
+
+  Result<Propagation> finish() {
+    Propagation result;
+    result.program.shape_name = shape_.name;
+    result.program.shape_sha256 = shape_.sha256;
+    layer_.parameter = {options_.parameter, at_.front(), at_.back(), 0};
+    result.program.layers.push_back(std::move(layer_));
+    Layer& layer = result.program.layers[0];
+    report(progress_, "finding the range", 0, 2);
+    const Range range = find_range(shape_, result.program, 0, options_.limit);
+    layer.parameter.min = range.min;
+    layer.parameter.max = range.max;
+    std::set<std::string> disabled;
+    for (const RelationIndex relation : request_.disabled) disabled.insert(id(relation));
+    report(progress_, "proving the relations", 1, 2);
+    layer.relations = prove_relations(shape_, result.program, 0, disabled);
+
+    trace_.parameter = options_.parameter;
+    trace_.samples.assign(at_.begin(), at_.end());
+    trace_.exact = exact;
+    trace_.one_edited = delta_one_edited;
+    trace_.both_edited = delta_both_edited;
+    for (const RelationIndex relation : request_.dissolved) trace_.dissolved.push_back(id(relation));
+    trace_.disabled.assign(disabled.begin(), disabled.end());
+    result.trace = std::move(trace_);
+    return result;
+  }
+
+  const Shape& shape_;
+  ResolvedRequest request_;
+  PropagateOptions options_;
+  const Progress& progress_;
+  SolveOptions solve_options_;
+  Graph graph_;
+  Edits edits_;
+  PartData<std::vector<PointConstraint>> pulls_;  ///< constraints of unedited parts by edited ones
+  SymbolicGoals goals_;
+  Samples at_{};
+  std::vector<PartIndex> held_;
+  std::vector<std::pair<PartIndex, std::size_t>> left_alone_;  ///< with the number of constraints seen
+  Layer layer_;
+  Trace trace_;
+};
+
+}  // namespace
+
+Result<Propagation> propagate(const Shape& shape, const EditRequest& request, const PropagateOptions& options,
+                              const Progress& progress) {
+  auto resolved = resolve(request, shape);
+  if (!resolved.ok()) return resolved.error();
+  return Loop(shape, std::move(resolved.value()), options, progress).run();
+}
+
+}  // namespace parsel

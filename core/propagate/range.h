@@ -1,0 +1,33 @@
+// How far a layer's slider may go before a part turns inside out.
+#pragma once
+
+#include <string>
+
+#include "core/edit/program.h"
+#include "core/shape/shape.h"
+
+namespace parsel {
+
+/// A cage counts as collapsed when the volume at one of its corners falls below this share of that at rest: thin enough
+/// to be of no use, and far enough from 0 that normals, which divide by it, stay accurate.
+inline constexpr double collapse_ratio = 0.05;
+
+/// Amounts reach no further than this: supplement §4's candidates are bounded so, and a larger one is no edit.
+inline constexpr double largest_amount = 5;
+
+struct Range {
+  double min = 0, max = 0;              ///< min <= 0 <= max
+  std::string min_reason, max_reason;  ///< why not further, for people: "seat would turn inside out", "limit"
+};
+
+/// The widest [min, max] within ±limit on which, going outward from 0, no hexahedron of an active part or of an instance
+/// inverts or collapses (see collapse_ratio, at the corners of the cage), and every amount of the layer is defined and
+/// below largest_amount in size. The layers before it stand at their values, later ones are not applied.
+///
+/// `limit` > 0, usually tau; a layer whose seed is a rotation may deserve more, as its amount is an angle. Steps of
+/// limit/48 find the first failure, bisection its place to limit·1e-6; ends short of the limit are rounded towards 0 to
+/// four decimals. A failure that comes and goes within one step is not seen. When the shape fails at 0 already (an
+/// earlier layer collapsed a part), the range is [0, 0].
+Range find_range(const Shape& shape, const Program& program, std::size_t layer, double limit);
+
+}  // namespace parsel

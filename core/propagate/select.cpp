@@ -1,0 +1,72 @@
+#include "core/propagate/select.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+
+namespace parsel {
+
+namespace {
+
+/// The rotation that takes the covariance S = Σ w·e·e'ᵀ to best fit: R = V·Uᵀ, without reflection.
+Mat3 best_rotation(const Mat3& covariance) {
+  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Mat3 v = svd.matrixV();
+  if ((v * svd.matrixU().transpose()).determinant() < 0) v.col(2) *= -1;
+  return v * svd.matrixU().transpose();
+}
+
+int preference_of(Op op) {
+  constexpr std::array<Op, 7> order = {Op::translate, Op::rotate,   Op::change_delta, Op::scale_1d,
+                                       Op::scale_2d,  Op::scale_3d, Op::shear};
+  return static_cast<int>(std::find(order.begin(), order.end(), op) - order.begin());
+}
+
+}  // namespace
+
+double arap_energy(const Corners& rest, const Corners& deformed) {
+  double energy = 0;
+  for (int i = 0; i < 8; ++i) {
+    Mat3 covariance = Mat3::Zero();
+    std::array<Vec3, 6> before;
+    std::array<Vec3, 6> after;
+    std::array<double, 6> weights{};
+    std::size_t count = 0;
+    for (int j = 0; j < 8; ++j) {
+      const int differing = ((i ^ j) & 1) + ((i ^ j) >> 1 & 1) + ((i ^ j) >> 2 & 1);
+      if (differing != 1 && differing != 2) continue;
+      before[count] = (rest.row(i) - rest.row(j)).transpose();
+      after[count] = (deformed.row(i) - deformed.row(j)).transpose();
+      weights[count] = differing == 1 ? 1 : 0.5;
+      covariance += weights[count] * before[count] * after[count].transpose();
+      ++count;
+    }
+    const Mat3 rotation = best_rotation(covariance);
+    for (std::size_t n = 0; n < count; ++n) {
+      energy += weights[n] * (after[n] - rotation * before[n]).squaredNorm();
+    }
+  }
+  return energy;
+}
+
+bool Rank::operator<(const Rank& other) const {
+  if (symmetry_cost != other.symmetry_cost) return symmetry_cost < other.symmetry_cost;
+  // Energies that differ by rounding are equal.
+  if (std::abs(energy - other.energy) > 1e-9 + 1e-6 * std::max(energy, other.energy)) return energy < other.energy;
+  return preference < other.preference;
+}
+
+Rank rank_of(const Candidate& candidate, const Samples& amount, const Corners& rest) {
+  const Op op = candidate.what.op;
+  Rank rank{candidate.symmetry_cost, 0, preference_of(op)};
+  const bool is_whole = candidate.what.feature == LocalTriple{0, 0, 0};
+  if (!is_geometric(op) || (is_whole && (op == Op::translate || op == Op::rotate))) return rank;
+  for (const double value : {amount.front(), amount.back()}) {
+    Corners deformed = rest;
+    apply_operator(candidate.what, value, deformed);
+    rank.energy = std::max(rank.energy, arap_energy(rest, deformed));
+  }
+  return rank;
+}
+
+}  // namespace parsel

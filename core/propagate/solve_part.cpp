@@ -1,0 +1,290 @@
+#include "core/propagate/solve_part.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/tolerance.h"
+#include "core/propagate/transfer.h"
+
+namespace parsel {
+
+namespace {
+
+/// A candidate, or a pair of them, that fits the constraints.
+struct Survivor {
+  const Candidate* first = nullptr;
+  const Candidate* second = nullptr;
+  Fit fit;
+  Rank rank;
+};
+
+class Search {
+ public:
+  Search(const Scene& scene, PartIndex part, const std::optional<Hint>& hint,
+         const std::vector<PointConstraint>& constraints, TraceStep& trace)
+      : scene_(scene), shape_(scene.graph.shape()), part_(part), hint_(hint), constraints_(constraints), trace_(trace) {}
+
+  Solution run() {
+    const SolveOptions& options = scene_.options;
+    const std::vector<double> slack = {options.one_edited, options.both_edited};
+    own_ = own_candidates(shape_, part_, hint_);
+    trace_.own_candidates = static_cast<int>(own_.size());
+    const bool is_group = shape_.parts[part_].is_virtual();
+
+    if (attempt(own_, options.exact, WhyKind::attachment)) return solution_;
+    if (options.neighbour_edits) {
+      neighbour_ = neighbour_candidates(shape_, part_, hint_, constraints_, scene_.edits);
+      trace_.neighbour_candidates = static_cast<int>(neighbour_.size());
+    }
+    // A group that must shift and spread does both rather than stretch its instances.
+    if (is_group && attempt_group_pairs(options.exact)) return solution_;
+    if (attempt(neighbour_, options.exact, WhyKind::neighbour)) return solution_;
+    if (is_slightly_off()) {
+      trace_.why = "no exact edit was found, and at rest it is off by less than a part may be";
+      return {Outcome::left_alone, WhyKind::attachment, {}};
+    }
+    for (const double tolerance : slack) {
+      if (attempt(own_, tolerance, WhyKind::attachment)) return solution_;
+    }
+    for (const double tolerance : slack) {
+      if (is_group && attempt_group_pairs(tolerance)) return solution_;
+      if (attempt(neighbour_, tolerance, WhyKind::neighbour)) return solution_;
+    }
+    for (const double tolerance : {options.exact, options.one_edited, options.both_edited}) {
+      if (options.neighbour_edits && attempt_pairs(tolerance)) return solution_;
+    }
+    if (options.breaking_edits && attempt_breaking()) return solution_;
+    trace_.why = own_.empty() && neighbour_.empty() ? "the hint leaves no candidate"
+                                                    : "no candidate keeps more relations than the part at rest";
+    return {Outcome::keep_fixed, WhyKind::breaking, {}};
+  }
+
+ private:
+  const Corners& rest() const { return shape_.parts[part_].hexahedron.corners; }
+
+  bool is_slightly_off() const {
+    Motion still;
+    still.fill(Corners::Zero());
+    for (const auto& [relation, by] : residuals(constraints_, still)) {
+      if (by > scene_.options.one_edited) return false;
+    }
+    return true;
+  }
+
+  bool attempt(const std::vector<Candidate>& candidates, double tolerance, WhyKind kind) {
+    if (candidates.empty()) return false;
+    const Rows rows(constraints_);
+    std::vector<Survivor> survivors;
+    for (const Candidate& candidate : candidates) {
+      if (const auto found = fit(candidate, rows, tolerance)) survivors.push_back({&candidate, nullptr, *found, {}});
+    }
+    for (Survivor& s : survivors) s.rank = rank_of(*s.first, s.fit.amount, rest());
+    return choose(survivors, tolerance, kind);
+  }
+
+  bool attempt_group_pairs(double tolerance) {
+    const auto is_spacing = [](const Candidate& c) { return c.what.op == Op::change_delta && c.anchor == Anchor::middle; };
+    const auto spacing = std::find_if(own_.begin(), own_.end(), is_spacing);
+    if (spacing == own_.end()) return false;
+    if (shifts_.empty()) {
+      for (const Candidate& candidate : own_candidates(shape_, part_, Hint::translate)) {
+        if (candidate.what.feature == LocalTriple{0, 0, 0}) shifts_.push_back(candidate);
+      }
+    }
+    return attempt_pairs_of(shifts_, {&*spacing}, tolerance, WhyKind::group);
+  }
+
+  bool attempt_pairs(double tolerance) {
+    if (shifts_.empty()) {
+      for (const Candidate& candidate : own_candidates(shape_, part_, Hint::translate)) {
+        if (candidate.what.feature == LocalTriple{0, 0, 0}) shifts_.push_back(candidate);
+      }
+    }
+    // One of the two must be what the hint asks for; the other may always be a translation.
+    const Vec3 centre = shape_.parts[part_].hexahedron.point(Vec3::Zero());
+    std::vector<const Candidate*> partners;
+    for (const Candidate& candidate : own_) {
+      const Op op = candidate.what.op;
+      const bool is_scale = op == Op::scale_1d || op == Op::scale_2d || op == Op::scale_3d;
+      const bool is_central = is_scale && (candidate.what.origin - centre).norm() < noise;
+      if (candidate.what.feature == LocalTriple{0, 0, 0} && (op == Op::translate || is_central)) {
+        partners.push_back(&candidate);
+      }
+    }
+    return attempt_pairs_of(shifts_, partners, tolerance, WhyKind::attachment);
+  }
+
+  bool attempt_pairs_of(const std::vector<Candidate>& firsts, const std::vector<const Candidate*>& seconds,
+                        double tolerance, WhyKind kind) {
+    const Rows rows(constraints_);
+    std::vector<Survivor> survivors;
+    for (const Candidate& first : firsts) {
+      for (const Candidate* second : seconds) {
+        ++trace_.pairs;
+        const auto found = fit_pair(first, *second, rows, tolerance);
+        if (!found) continue;
+        survivors.push_back({&first, second, *found, rank_of(*second, found->second, rest())});
+      }
+    }
+    return choose(survivors, tolerance, kind);
+  }
+
+  static void sort(std::vector<Survivor>& survivors) {
+    std::stable_sort(survivors.begin(), survivors.end(), [](const Survivor& a, const Survivor& b) { return a.rank < b.rank; });
+  }
+
+  bool choose(std::vector<Survivor>& survivors, double tolerance, WhyKind kind) {
+    trace_.survivors += static_cast<int>(survivors.size());
+    survivors.erase(std::remove_if(survivors.begin(), survivors.end(),
+                                   [](const Survivor& s) { return s.rank.energy > largest_energy; }),
+                    survivors.end());
+    sort(survivors);
+    AmountSolver solver(constraints_, scene_.edits, scene_.goals, scene_.parameter, scene_.at);
+    for (std::size_t i = 0; i < survivors.size(); ++i) {
+      auto steps = steps_of(survivors[i], solver);
+      if (!steps) continue;
+      const Motion motion = motion_of(shape_, part_, *steps);
+      double worst = 0;
+      for (const auto& [relation, by] : residuals(constraints_, motion)) worst = std::max(worst, by);
+      if (worst > tolerance + simplification_slack) continue;
+      std::swap(survivors[0], survivors[i]);  // what could not be solved is no runner-up that deserves to be first
+      record(survivors, tolerance, kind);
+      solution_ = {Outcome::solved, kind, std::move(*steps)};
+      return true;
+    }
+    return false;
+  }
+
+  std::optional<std::vector<Step>> steps_of(const Survivor& survivor, AmountSolver& solver) {
+    ++trace_.solved;
+    std::vector<Step> steps;
+    const auto add = [&](const Candidate& candidate, const std::optional<ClosedForm>& form) {
+      if (form) steps.push_back({candidate.what, candidate.anchor, form->expression, form->values});
+      return form.has_value();
+    };
+    if (survivor.second == nullptr) {
+      if (!add(*survivor.first, solver.solve(*survivor.first, survivor.fit.amount))) return std::nullopt;
+    } else {
+      if (!add(*survivor.first, solver.proportional(*survivor.first, survivor.fit.amount))) return std::nullopt;
+      if (!add(*survivor.second, solver.proportional(*survivor.second, survivor.fit.second))) return std::nullopt;
+    }
+    if (hint_ == Hint::change_count && steps.back().what.op == Op::change_delta) add_count(steps);
+    return steps;
+  }
+
+  /// The group keeps its new extent, and as many instances fill it as bring the spacing nearest to what it was: with n
+  /// instances in a row, n − 1 gaps spread by 1 + a hold round((n − 1)·(1 + a)) gaps of the old size.
+  void add_count(std::vector<Step>& steps) const {
+    const Relation& group = shape_.relations[*shape_.parts[part_].group];
+    const bool is_row = group.kind == RelationKind::translation;
+    const long gaps = static_cast<long>(group.parts.size()) - (is_row ? 1 : 0);
+    const Step& spread = steps.back();
+    Step count;
+    count.what.op = Op::change_count;
+    count.anchor = Anchor::fit;
+    count.amount = (gaps * spread.amount + GiNaC::numeric(1, 2)).expand();
+    for (std::size_t s = 0; s < sample_count; ++s) count.values[s] = static_cast<double>(gaps) * spread.values[s] + 0.5;
+    steps.push_back(std::move(count));
+  }
+
+  /// Minimally breaking edit (ParSEL §5.3.1): every relation alone proposes amounts; fewest relations lost wins.
+  bool attempt_breaking() {
+    struct Proposal {
+      Survivor survivor;
+      std::size_t proposer = 0;
+      int lost = 0, inexact = 0;
+    };
+    std::vector<std::vector<PointConstraint>> groups;
+    for (const PointConstraint& constraint : constraints_) {
+      if (groups.empty() || groups.back().front().relation != constraint.relation) groups.emplace_back();
+      groups.back().push_back(constraint);
+    }
+    std::vector<Rows> rows;
+    for (const auto& group : groups) rows.emplace_back(group);
+    const auto lost_by = [&](const auto& misses_of) {
+      std::pair<int, int> lost;
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        const double by = misses_of(g);
+        lost.first += by > scene_.options.both_edited;
+        lost.second += by > scene_.options.exact;
+      }
+      return lost;
+    };
+    Motion still;
+    still.fill(Corners::Zero());
+    const auto at_rest = lost_by([&](std::size_t g) { return residuals(groups[g], still)[0].second; });
+    std::vector<Proposal> best;
+    std::pair<int, int> fewest = at_rest;
+    for (const std::vector<Candidate>* list : {&own_, &neighbour_}) {
+      for (const Candidate& candidate : *list) {
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+          const auto found = fit(candidate, rows[g], scene_.options.exact);
+          if (!found) continue;
+          ++trace_.survivors;
+          const auto lost = lost_by([&](std::size_t other) { return missed_by(candidate, found->amount, rows[other]); });
+          if (lost > fewest || lost.first >= at_rest.first) continue;
+          if (lost < fewest) best.clear();
+          fewest = lost;
+          best.push_back({{&candidate, nullptr, *found, {}}, g, lost.first, lost.second});
+        }
+      }
+    }
+    for (Proposal& p : best) p.survivor.rank = rank_of(*p.survivor.first, p.survivor.fit.amount, rest());
+    std::stable_sort(best.begin(), best.end(),
+                     [](const Proposal& a, const Proposal& b) { return a.survivor.rank < b.survivor.rank; });
+    for (const Proposal& proposal : best) {
+      if (proposal.survivor.rank.energy > largest_energy) continue;
+      AmountSolver solver(groups[proposal.proposer], scene_.edits, scene_.goals, scene_.parameter, scene_.at);
+      auto steps = steps_of(proposal.survivor, solver);
+      if (!steps) continue;
+      std::vector<Survivor> ranked = {proposal.survivor};
+      record(ranked, scene_.options.exact, WhyKind::breaking);
+      trace_.why = "no edit keeps all relations; this one loses the fewest, " + std::to_string(proposal.lost) + " of " +
+                   std::to_string(groups.size());
+      solution_ = {Outcome::solved, WhyKind::breaking, std::move(*steps)};
+      return true;
+    }
+    return false;
+  }
+
+  void record(const std::vector<Survivor>& ranked, double tolerance, WhyKind kind) {
+    const auto text = [&](const Survivor& s) {
+      const auto name = [](const Candidate& c) {
+        std::string words(to_string(c.what.op));
+        if (c.what.feature != LocalTriple{0, 0, 0}) words += " of a feature";
+        return words;
+      };
+      return s.second == nullptr ? name(*s.first) : name(*s.first) + " and " + name(*s.second);
+    };
+    trace_.tolerance = tolerance;
+    trace_.symmetry_cost = ranked[0].rank.symmetry_cost;
+    trace_.energy = ranked[0].rank.energy;
+    for (std::size_t i = 1; i < ranked.size() && i <= 3; ++i) {
+      trace_.runners_up.push_back(
+          {text(ranked[i]), ranked[i].rank.symmetry_cost, ranked[i].rank.energy, ranked[i].fit.error});
+    }
+    const std::string source = kind == WhyKind::neighbour ? "with a neighbour's points and axes " : "";
+    trace_.why = ranked.size() == 1
+                     ? text(ranked[0]) + " " + source + "is the only edit that keeps all relations to edited parts"
+                     : text(ranked[0]) + " " + source + "gives up the fewest symmetry planes, then deforms least, of " +
+                           std::to_string(ranked.size()) + " edits that keep all relations to edited parts";
+  }
+
+  const Scene& scene_;
+  const Shape& shape_;
+  PartIndex part_;
+  std::optional<Hint> hint_;
+  const std::vector<PointConstraint>& constraints_;
+  TraceStep& trace_;
+  std::vector<Candidate> own_, neighbour_, shifts_;
+  Solution solution_;
+};
+
+}  // namespace
+
+Solution solve_part(const Scene& scene, PartIndex part, const std::optional<Hint>& hint,
+                    const std::vector<PointConstraint>& constraints, TraceStep& trace) {
+  return Search(scene, part, hint, constraints, trace).run();
+}
+
+}  // namespace parsel

@@ -1,0 +1,71 @@
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/propagate/propagate.h"
+#include "gallery_truth.h"
+
+using namespace parsel;
+
+namespace {
+
+/// Largest error that is accepted, as a share of the half-diagonal.
+constexpr double accepted = 0.005;
+
+/// Edits whose result differs from the generator's, and why. They are run and printed like all others.
+const std::map<std::string, std::string> known_failures = {};
+
+struct Row {
+  double worst = 0;
+  std::string where;
+};
+
+}  // namespace
+
+TEST_CASE("gallery edits end where the generator builds the edited model") {
+  std::printf("%-16s %-22s %4s %7s %7s  %8s %8s %8s  %s\n", "model", "edit", "n", "min", "max", "error%", "error%",
+              "error%", "worst part");
+  for (const GalleryModel& model : gallery_models()) {
+    const auto asset = build(model);
+    REQUIRE(asset.ok());
+    const auto abstraction = abstract_shape(asset->glb, model.id);
+    REQUIRE(abstraction.ok());
+    const Shape& shape = abstraction->shape;
+    for (const GalleryEdit& edit : asset->edits) {
+      CAPTURE(model.id);
+      CAPTURE(edit.id);
+      const auto request = edit_request_from_json(nlohmann::json::parse(edit.json));
+      if (!request.ok()) FAIL(request.error().message());
+      PropagateOptions options;
+      options.request = edit.request;
+      const auto found = propagate(shape, *request, options);
+      if (!found.ok()) FAIL(found.error().message());
+      const Layer& layer = found->program.layers[0];
+      const Evaluator evaluate(found->program, shape);
+      std::printf("%-16s %-22s %4zu %7.3f %7.3f ", model.id.c_str(), edit.id.c_str(), layer.statements.size(),
+                  layer.parameter.min, layer.parameter.max);
+      Row row;
+      for (const double x : {0.85 * layer.parameter.min, 0.3 * layer.parameter.max, 0.95 * layer.parameter.max}) {
+        const auto truth = build(model, edit.values(x));
+        if (!truth.ok()) FAIL(truth.error().message());
+        const auto boxes = test::edited_boxes(shape, evaluate({x}));
+        const auto [worst, where] = test::distance_from_truth(boxes, truth->parts, shape.frame.scale);
+        std::printf(" %8.3f", 100 * worst);
+        if (worst > row.worst) row = {worst, where};
+      }
+      const std::string id = model.id + "/" + edit.id;
+      const auto known = known_failures.find(id);
+      std::printf("  %s%s\n", row.where.c_str(), known != known_failures.end() ? "  (known)" : "");
+      std::fflush(stdout);
+      // A range that has shrunk to nothing would pass any comparison.
+      CHECK(layer.parameter.max - layer.parameter.min > 0.1);
+      if (known == known_failures.end()) {
+        CHECK(row.worst <= accepted);
+      } else {
+        CHECK_MESSAGE(row.worst > accepted, "no longer fails: take it off the list");
+      }
+    }
+  }
+}
