@@ -114,7 +114,7 @@ class Collector {
     if (!allows(hint_, what.op)) return;
     const Corners field = unit_field(what, rest_);
     if (field.cwiseAbs().maxCoeff() < 1e-6) return;
-    if (seen_.insert(key_of(what, field)).second) candidates_.push_back({what, Anchor::middle, field, symmetry_cost});
+    if (seen_.insert(key_of(what, field)).second) candidates_.push_back({what, Anchor::middle, field, symmetry_cost, false});
   }
 
   void add_group(Anchor anchor) {
@@ -122,7 +122,7 @@ class Collector {
     ResolvedOperator what;
     what.op = Op::change_delta;
     const Corners field = group_field(shape_, part_, Op::change_delta, anchor);
-    if (field.cwiseAbs().maxCoeff() > 1e-6) candidates_.push_back({what, anchor, field, 0});
+    if (field.cwiseAbs().maxCoeff() > 1e-6) candidates_.push_back({what, anchor, field, 0, false});
   }
 
   /// Operators on the whole part with the points and axes of `source`.
@@ -195,7 +195,10 @@ class Collector {
     }
   }
 
-  std::vector<Candidate> take() { return std::move(candidates_); }
+  std::vector<Candidate> take(bool from_neighbour) {
+    for (Candidate& candidate : candidates_) candidate.from_neighbour = from_neighbour;
+    return std::move(candidates_);
+  }
 
  private:
   void with_op(ResolvedOperator what, Op op, int symmetry_cost) {
@@ -237,7 +240,39 @@ std::vector<Candidate> own_candidates(const Shape& shape, PartIndex part, const 
   }
   collector.add_whole(own.hexahedron);
   collector.add_features(own.hexahedron);
-  return collector.take();
+  return collector.take(false);
+}
+
+bool fills_its_extent(const Shape& shape, PartIndex parent) {
+  const Relation& relation = shape.relations[*shape.parts[parent].group];
+  const Corners& instance = shape.parts[relation.parts[0]].hexahedron.corners;
+  const Vec3 centre = instance.colwise().mean().transpose();
+  const auto extent_along = [&](const Vec3& direction) {
+    const Eigen::Matrix<double, 8, 1> along = instance * direction;
+    return along.maxCoeff() - along.minCoeff();
+  };
+  if (const auto* row = std::get_if<Translation>(&relation.detail)) {
+    const Vec3 delta = (row->end - row->start) / (static_cast<double>(relation.parts.size()) - 1);
+    return extent_along(delta.normalized()) > 0.75 * delta.norm();
+  }
+  const auto& ring = std::get<Rotation>(relation.detail);
+  const Vec3 offset = centre - ring.centre;
+  const Vec3 outwards = offset - ring.axis.dot(offset) * ring.axis;
+  return outwards.norm() < noise || extent_along(outwards.normalized()) > ring.radius;
+}
+
+std::vector<Candidate> transplants(const Shape& shape, PartIndex part, const std::optional<Hint>& hint,
+                                   const std::vector<PointConstraint>& constraints, const Edits& edits) {
+  Collector collector(shape, part, hint);
+  for (const PointConstraint& constraint : constraints) {
+    for (const Step& step : edits[constraint.other]->steps) {
+      if (!is_geometric(step.what.op)) continue;
+      ResolvedOperator whole = step.what;
+      whole.feature = {0, 0, 0};
+      collector.add(whole, whole.op == Op::shear ? 2 : 0);
+    }
+  }
+  return collector.take(true);
 }
 
 std::vector<Candidate> neighbour_candidates(const Shape& shape, PartIndex part, const std::optional<Hint>& hint,
@@ -246,27 +281,19 @@ std::vector<Candidate> neighbour_candidates(const Shape& shape, PartIndex part, 
   const Hexahedron& own = shape.parts[part].hexahedron;
   std::set<PartIndex> seen;
   for (const PointConstraint& constraint : constraints) {
-    ResolvedOperator motion;
-    motion.op = Op::translate;
-    const auto follow = [&](const Vec3& direction) {
-      if (direction.norm() < exact) return;
-      motion.direction = direction.normalized();
-      collector.add(motion, 0);
-    };
-    if (!seen.insert(constraint.other).second) continue;
-    for (const Step& step : edits[constraint.other]->steps) {
-      if (!is_geometric(step.what.op)) continue;
-      ResolvedOperator whole = step.what;
-      whole.feature = {0, 0, 0};
-      collector.add(whole, whole.op == Op::shear ? 2 : 0);
-    }
+    if (edits[constraint.other]->steps.empty() || !seen.insert(constraint.other).second) continue;
     const Hexahedron& other = shape.parts[constraint.other].hexahedron;
     collector.add_whole(other);
-    follow(own.point(Vec3::Zero()) - other.point(Vec3::Zero()));
-    follow(constraint.goal.back());
-    follow(constraint.goal.front());
+    ResolvedOperator motion;
+    motion.op = Op::translate;
+    for (const Vec3& direction : {Vec3(own.point(Vec3::Zero()) - other.point(Vec3::Zero())), constraint.goal.back(),
+                                  constraint.goal.front()}) {
+      if (direction.norm() < exact) continue;
+      motion.direction = direction.normalized();
+      collector.add(motion, 0);
+    }
   }
-  return collector.take();
+  return collector.take(true);
 }
 
 }  // namespace parsel

@@ -207,15 +207,23 @@ Status resolve_disabled(const EditRequest& request, const Shape& shape, Resolved
   return success();
 }
 
-Status resolve_hints(const EditRequest& request, const Shape& shape, ResolvedRequest& resolved) {
+Status resolve_hints(const EditRequest& request, const Shape& shape, const std::set<RelationIndex>& dissolved,
+                     ResolvedRequest& resolved) {
   for (const auto& [id, hint] : request.hints) {
     const auto part = shape.find_part(id);
     if (!part) {
       return refused(pointer("/hints", id), "the shape has no such part", "name a part that `parsel inspect` lists");
     }
-    const auto [known, is_new] = resolved.hints.emplace(*part, hint);
+    // A group is edited as one: what is asked of an instance is asked of the group.
+    const Part& named = shape.parts[*part];
+    PartIndex edited = *part;
+    if (named.group && !named.is_virtual() && dissolved.count(*named.group) == 0) {
+      edited = parent_of(shape.relations[*named.group]);
+    }
+    const auto [known, is_new] = resolved.hints.emplace(edited, hint);
     if (!is_new && known->second != hint) {
-      return refused(pointer("/hints", id), "the part has another hint under its other name", "keep one of the two");
+      return refused(pointer("/hints", id), "the part, or its group, has another hint under another name",
+                     "keep one of the two");
     }
   }
   return success();
@@ -226,7 +234,6 @@ Status resolve_hints(const EditRequest& request, const Shape& shape, ResolvedReq
 Result<ResolvedRequest> resolve(const EditRequest& request, const Shape& shape) {
   ResolvedRequest resolved;
   if (Status s = resolve_disabled(request, shape, resolved); !s.ok()) return s.error();
-  if (Status s = resolve_hints(request, shape, resolved); !s.ok()) return s.error();
   std::set<RelationIndex> dissolved;
   for (const RelationIndex r : resolved.disabled) {
     if (shape.relations[r].is_group()) dissolved.insert(r);
@@ -250,6 +257,7 @@ Result<ResolvedRequest> resolve(const EditRequest& request, const Shape& shape) 
     return refused("/seed", "group '" + shape.relations[group].id + "' is edited as one, but its instances are on their own",
                    "edit the group or its instances, not both, and do not disable a group that you edit");
   }
+  if (Status s = resolve_hints(request, shape, dissolved, resolved); !s.ok()) return s.error();
   resolved.dissolved.assign(dissolved.begin(), dissolved.end());
   resolved.disabled.insert(dissolved.begin(), dissolved.end());
   return resolved;

@@ -197,8 +197,7 @@ class Loop {
     for (const auto& [part, hint] : request_.hints) {
       const std::string words = "the hint " + std::string(to_string(hint)) + " for " + id(part);
       if (!is_in_graph(part)) {
-        trace_.notes.push_back(words + (shape_.parts[part].is_virtual() ? " has no effect: the group is dissolved"
-                                                                        : " has no effect: its group is edited as one"));
+        trace_.notes.push_back(words + " has no effect: the group is dissolved");
       } else if (std::find(request_.seed_parts.begin(), request_.seed_parts.end(), part) != request_.seed_parts.end()) {
         trace_.notes.push_back(words + " has no effect: the part has a seed edit");
       }

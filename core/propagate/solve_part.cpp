@@ -10,6 +10,9 @@ namespace parsel {
 
 namespace {
 
+/// Errors below this are rounding: between edits of equal rank, one that fits perfectly is no coincidence.
+constexpr double perfect = 1e-6;
+
 /// A candidate, or a pair of them, that fits the constraints.
 struct Survivor {
   const Candidate* first = nullptr;
@@ -22,35 +25,38 @@ class Search {
  public:
   Search(const Scene& scene, PartIndex part, const std::optional<Hint>& hint,
          const std::vector<PointConstraint>& constraints, TraceStep& trace)
-      : scene_(scene), shape_(scene.graph.shape()), part_(part), hint_(hint), constraints_(constraints), trace_(trace) {}
+      : scene_(scene), shape_(scene.graph.shape()), part_(part), hint_(hint), constraints_(constraints), trace_(trace), rows_(constraints) {}
 
   Solution run() {
     const SolveOptions& options = scene_.options;
-    const std::vector<double> slack = {options.one_edited, options.both_edited};
-    own_ = own_candidates(shape_, part_, hint_);
-    trace_.own_candidates = static_cast<int>(own_.size());
     const bool is_group = shape_.parts[part_].is_virtual();
+    generate(is_group);
+    const auto moves = [](const Candidate& c) { return c.what.op == Op::translate && is_whole(c); };
+    const auto rigid = [&](const Candidate& c) { return moves(c) || (c.what.op == Op::rotate && is_whole(c)) || !is_geometric(c.what.op); };
+    const auto plain = [](const Candidate& c) { return c.symmetry_cost <= 1; };
+    const auto all = [](const Candidate&) { return true; };
 
-    if (attempt(own_, options.exact, WhyKind::attachment)) return solution_;
+    if (attempt(own_, moves, options.exact)) return solution_;
+    if (is_slightly_off()) {
+      trace_.why = "no translation follows exactly, and at rest the part is off by less than a part may be";
+      return {Outcome::left_alone, WhyKind::attachment, {}};
+    }
+    if (attempt(own_, rigid, options.exact) || attempt(own_, moves, options.one_edited)) return solution_;
+    if (is_group && !fills_ && attempt_group_pairs(options.exact)) return solution_;
+    if (attempt(own_, plain, options.exact)) return solution_;
     if (options.neighbour_edits) {
       neighbour_ = neighbour_candidates(shape_, part_, hint_, constraints_, scene_.edits);
       trace_.neighbour_candidates = static_cast<int>(neighbour_.size());
     }
-    // A group that must shift and spread does both rather than stretch its instances.
-    if (is_group && attempt_group_pairs(options.exact)) return solution_;
-    if (attempt(neighbour_, options.exact, WhyKind::neighbour)) return solution_;
-    if (is_slightly_off()) {
-      trace_.why = "no exact edit was found, and at rest it is off by less than a part may be";
-      return {Outcome::left_alone, WhyKind::attachment, {}};
-    }
-    for (const double tolerance : slack) {
-      if (attempt(own_, tolerance, WhyKind::attachment)) return solution_;
-    }
-    for (const double tolerance : slack) {
+    if (attempt(neighbour_, plain, options.exact)) return solution_;
+    if (is_group && fills_ && attempt_group_pairs(options.exact)) return solution_;
+    if (options.neighbour_edits && attempt_pairs(options.exact)) return solution_;
+    if (attempt(own_, plain, options.one_edited)) return solution_;
+    if (attempt(own_, all, options.exact) || attempt(neighbour_, all, options.exact)) return solution_;
+    for (const double tolerance : {options.one_edited, options.both_edited}) {
+      if (attempt(own_, all, tolerance)) return solution_;
       if (is_group && attempt_group_pairs(tolerance)) return solution_;
-      if (attempt(neighbour_, tolerance, WhyKind::neighbour)) return solution_;
-    }
-    for (const double tolerance : {options.exact, options.one_edited, options.both_edited}) {
+      if (attempt(neighbour_, all, tolerance)) return solution_;
       if (options.neighbour_edits && attempt_pairs(tolerance)) return solution_;
     }
     if (options.breaking_edits && attempt_breaking()) return solution_;
@@ -62,6 +68,28 @@ class Search {
  private:
   const Corners& rest() const { return shape_.parts[part_].hexahedron.corners; }
 
+  static bool is_whole(const Candidate& candidate) { return candidate.what.feature == LocalTriple{0, 0, 0}; }
+
+  /// The part's own candidates and what its neighbours do. A group that fills its extent offers no change of spacing,
+  /// unless a hint asks for it.
+  void generate(bool is_group) {
+    own_ = own_candidates(shape_, part_, hint_);
+    trace_.own_candidates = static_cast<int>(own_.size());
+    if (scene_.options.neighbour_edits) {
+      const auto copies = transplants(shape_, part_, hint_, constraints_, scene_.edits);
+      trace_.neighbour_candidates = static_cast<int>(copies.size());
+      own_.insert(own_.end(), copies.begin(), copies.end());
+    }
+    if (!is_group) return;
+    const auto is_spacing = [](const Candidate& c) { return c.what.op == Op::change_delta && c.anchor == Anchor::middle; };
+    const auto spacing = std::find_if(own_.begin(), own_.end(), is_spacing);
+    if (spacing != own_.end()) spacing_ = *spacing;
+    fills_ = !hint_ && fills_its_extent(shape_, part_);
+    if (!fills_) return;
+    own_.erase(std::remove_if(own_.begin(), own_.end(), [](const Candidate& c) { return !is_geometric(c.what.op); }),
+               own_.end());
+  }
+
   bool is_slightly_off() const {
     Motion still;
     still.fill(Corners::Zero());
@@ -71,35 +99,32 @@ class Search {
     return true;
   }
 
-  bool attempt(const std::vector<Candidate>& candidates, double tolerance, WhyKind kind) {
-    if (candidates.empty()) return false;
-    const Rows rows(constraints_);
+  template <class Filter>
+  bool attempt(const std::vector<Candidate>& candidates, const Filter& filter, double tolerance) {
     std::vector<Survivor> survivors;
     for (const Candidate& candidate : candidates) {
-      if (const auto found = fit(candidate, rows, tolerance)) survivors.push_back({&candidate, nullptr, *found, {}});
+      if (!filter(candidate)) continue;
+      if (const auto found = fit(candidate, rows_, tolerance)) survivors.push_back({&candidate, nullptr, *found, {}});
     }
     for (Survivor& s : survivors) s.rank = rank_of(*s.first, s.fit.amount, rest());
-    return choose(survivors, tolerance, kind);
+    return choose(survivors, tolerance, WhyKind::attachment);
   }
 
-  bool attempt_group_pairs(double tolerance) {
-    const auto is_spacing = [](const Candidate& c) { return c.what.op == Op::change_delta && c.anchor == Anchor::middle; };
-    const auto spacing = std::find_if(own_.begin(), own_.end(), is_spacing);
-    if (spacing == own_.end()) return false;
+  const std::vector<Candidate>& shifts() {
     if (shifts_.empty()) {
       for (const Candidate& candidate : own_candidates(shape_, part_, Hint::translate)) {
-        if (candidate.what.feature == LocalTriple{0, 0, 0}) shifts_.push_back(candidate);
+        if (is_whole(candidate)) shifts_.push_back(candidate);
       }
     }
-    return attempt_pairs_of(shifts_, {&*spacing}, tolerance, WhyKind::group);
+    return shifts_;
+  }
+
+  /// A group that must shift and spread does both rather than stretch its instances.
+  bool attempt_group_pairs(double tolerance) {
+    return spacing_ && attempt_pairs_of(shifts(), {&*spacing_}, tolerance, WhyKind::group);
   }
 
   bool attempt_pairs(double tolerance) {
-    if (shifts_.empty()) {
-      for (const Candidate& candidate : own_candidates(shape_, part_, Hint::translate)) {
-        if (candidate.what.feature == LocalTriple{0, 0, 0}) shifts_.push_back(candidate);
-      }
-    }
     // One of the two must be what the hint asks for; the other may always be a translation.
     const Vec3 centre = shape_.parts[part_].hexahedron.point(Vec3::Zero());
     std::vector<const Candidate*> partners;
@@ -107,21 +132,18 @@ class Search {
       const Op op = candidate.what.op;
       const bool is_scale = op == Op::scale_1d || op == Op::scale_2d || op == Op::scale_3d;
       const bool is_central = is_scale && (candidate.what.origin - centre).norm() < noise;
-      if (candidate.what.feature == LocalTriple{0, 0, 0} && (op == Op::translate || is_central)) {
-        partners.push_back(&candidate);
-      }
+      if (is_whole(candidate) && (op == Op::translate || is_central)) partners.push_back(&candidate);
     }
-    return attempt_pairs_of(shifts_, partners, tolerance, WhyKind::attachment);
+    return attempt_pairs_of(shifts(), partners, tolerance, WhyKind::attachment);
   }
 
   bool attempt_pairs_of(const std::vector<Candidate>& firsts, const std::vector<const Candidate*>& seconds,
                         double tolerance, WhyKind kind) {
-    const Rows rows(constraints_);
     std::vector<Survivor> survivors;
     for (const Candidate& first : firsts) {
       for (const Candidate* second : seconds) {
         ++trace_.pairs;
-        const auto found = fit_pair(first, *second, rows, tolerance);
+        const auto found = fit_pair(first, *second, rows_, tolerance);
         if (!found) continue;
         survivors.push_back({&first, second, *found, rank_of(*second, found->second, rest())});
       }
@@ -130,7 +152,11 @@ class Search {
   }
 
   static void sort(std::vector<Survivor>& survivors) {
-    std::stable_sort(survivors.begin(), survivors.end(), [](const Survivor& a, const Survivor& b) { return a.rank < b.rank; });
+    std::stable_sort(survivors.begin(), survivors.end(), [](const Survivor& a, const Survivor& b) {
+      if (a.rank < b.rank) return true;
+      if (b.rank < a.rank) return false;
+      return (a.fit.error < perfect) && !(b.fit.error < perfect);
+    });
   }
 
   bool choose(std::vector<Survivor>& survivors, double tolerance, WhyKind kind) {
@@ -148,6 +174,7 @@ class Search {
       for (const auto& [relation, by] : residuals(constraints_, motion)) worst = std::max(worst, by);
       if (worst > tolerance + simplification_slack) continue;
       std::swap(survivors[0], survivors[i]);  // what could not be solved is no runner-up that deserves to be first
+      if (survivors[0].second == nullptr && survivors[0].first->from_neighbour) kind = WhyKind::neighbour;
       record(survivors, tolerance, kind);
       solution_ = {Outcome::solved, kind, std::move(*steps)};
       return true;
@@ -276,7 +303,10 @@ class Search {
   std::optional<Hint> hint_;
   const std::vector<PointConstraint>& constraints_;
   TraceStep& trace_;
+  Rows rows_;
   std::vector<Candidate> own_, neighbour_, shifts_;
+  std::optional<Candidate> spacing_;
+  bool fills_ = false;
   Solution solution_;
 };
 

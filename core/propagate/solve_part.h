@@ -2,14 +2,20 @@
 //
 // Screen with numbers, solve with algebra: every candidate is fitted numerically at the samples (screen.h); survivors are
 // ranked (select.h), and in that order brought into closed form (closed_form.h) until one succeeds. The first of these
-// searches that finds an edit ends it:
-//   1. the part's own candidates, within `exact`                 5. neighbour candidates, within the deltas
-//   2. neighbour candidates, within `exact`                      6. pairs, within `exact`, then within the deltas
-//   3. (group) a translation with a change of spacing            7. breaking: fewest relations lost
-//   4. own candidates within delta_one_edited, delta_both_edited
-// Between 3 and 4 a part that is off by no more than delta_one_edited is left alone. Exact before slack: a wrong operator
-// that errs by less than delta would otherwise win on deformation energy (2 % off on 8 of 10 known shapes; 0.2 % so).
-// Pairs of operators on one part go beyond the paper: a chair's back whose seat is widened and raised at once.
+// searches that finds an edit ends it ("own" includes what the neighbours do, done to this part):
+//    1. own translations, within `exact`; then a part that is off by no more than delta_one_edited is left alone
+//    2. own rigid edits (translate, rotate, change of spacing) within `exact`, translations within delta_one_edited
+//    3. a group that does not fill its extent: a translation with a change of spacing, within `exact`
+//    4. own candidates without shear and bent edges, then neighbour candidates, then pairs of operators, within `exact`
+//    5. the first of these within delta_one_edited
+//    6. shear and bent edges, own and of neighbours, within `exact`
+//    7. everything within delta_one_edited, then delta_both_edited
+//    8. breaking: fewest relations lost
+// Exact before slack: a wrong operator that errs by less than delta would otherwise win on deformation energy (2 % off on
+// 8 of 10 known shapes; 0.2 % so). But a part is deformed only where moving it leaves more than a part may be off: else the
+// pole of a lamp is thickened with its shade, or a post with the bench that it is bolted to.
+// Pairs of operators on one part go beyond the paper: a chair's back whose seat is widened and raised at once, or a table's
+// apron between two legs that move by different amounts.
 #pragma once
 
 #include <string>

@@ -182,10 +182,13 @@ std::optional<PartIndex> part_of(const Shape& shape, const Statement& statement)
   if (is_geometric(statement.op)) return shape.find_part(statement.part);
   const auto relation = shape.find_relation(statement.relation);
   if (!relation) return std::nullopt;
-  const Relation& r = shape.relations[*relation];
-  if (const auto* translation = std::get_if<Translation>(&r.detail)) return translation->parent;
-  if (const auto* rotation = std::get_if<Rotation>(&r.detail)) return rotation->parent;
-  return std::nullopt;
+  if (!shape.relations[*relation].is_group()) return std::nullopt;
+  return parent_of(shape.relations[*relation]);
+}
+
+PartIndex parent_of(const Relation& group) {
+  if (const auto* translation = std::get_if<Translation>(&group.detail)) return translation->parent;
+  return std::get<Rotation>(group.detail).parent;
 }
 
 }  // namespace parsel

@@ -29,13 +29,21 @@ inline double box_distance(const Corners& a, const Corners& b) {
   return worst;
 }
 
-/// All parts after an edit; instances of a group with a changed count have node -1.
-inline std::vector<LabelledBox> edited_boxes(const Shape& shape, const State& state) {
+/// Where an edit takes the corners of the generator's own boxes, as points of the cages that the abstraction found: the
+/// two boxes of a part need not be equal. Instances of a group with a changed count have node -1.
+inline std::vector<LabelledBox> edited_boxes(const Shape& shape, const State& state,
+                                             const std::vector<GalleryPart>& at_rest) {
   std::vector<LabelledBox> boxes;
-  const auto add = [&](const Part& part, int node, const Corners& corners) {
-    Corners metres = corners;
-    for (int k = 0; k < 8; ++k) metres.row(k) = shape.frame.to_model(corners.row(k).transpose()).transpose();
-    boxes.push_back({node, part.primitive, part.label, metres});
+  const auto add = [&](const Part& part, int node, const Corners& cage) {
+    for (const GalleryPart& truth : at_rest) {
+      if (truth.node != part.node || truth.primitive != part.primitive) continue;
+      Corners metres;
+      for (int k = 0; k < 8; ++k) {
+        const Vec3 local = part.hexahedron.local(shape.frame.to_normalised(truth.corners.row(k).transpose()));
+        metres.row(k) = shape.frame.to_model(interpolate(trilinear_weights(local), cage)).transpose();
+      }
+      boxes.push_back({node, part.primitive, part.label, metres});
+    }
   };
   for (const PartIndex p : shape.parts.indices()) {
     const Part& part = shape.parts[p];
@@ -45,8 +53,10 @@ inline std::vector<LabelledBox> edited_boxes(const Shape& shape, const State& st
   }
   for (const RelationIndex r : shape.relations.indices()) {
     const Relation& relation = shape.relations[r];
-    if (!relation.is_group() || !state.groups[r].count_changed) continue;
-    for (const Corners& corners : state.groups[r].instances) add(shape.parts[relation.parts[0]], -1, corners);
+    const GroupState& group = state.groups[r];
+    if (!relation.is_group() || !group.count_changed) continue;
+    const PartIndex source = relation.parts[static_cast<std::size_t>(std::max(group.source, 0))];
+    for (const Corners& cage : group.instances) add(shape.parts[source], -1, cage);
   }
   return boxes;
 }

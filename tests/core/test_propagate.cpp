@@ -326,7 +326,7 @@ TEST_CASE("requests that make no sense for the shape are refused by name") {
   CHECK(refusal(shape, {{"seed", {top}}, {"hints", {{"nobody", "scale"}}}}).place == "/hints/nobody");
   CHECK(refusal(shape, {{"seed", {top}}, {"hints", {{"slats", "explode"}}}}).place == "/hints/slats");
   CHECK(refusal(shape, {{"seed", {top}}, {"hints", {{"top_rail", "scale"}, {"node:0", "rotate"}}}}).cause ==
-        "the part has another hint under its other name");
+        "the part, or its group, has another hint under another name");
   CHECK(refusal(shape, {{"seed", {top}}, {"disabled", {"r7"}}}).place == "/disabled/0");
   CHECK(refusal(shape, {{"seed", {top}}, {"disabled", {"kind:magic"}}}).place == "/disabled/0");
   CHECK(refusal(shape, {{"seed", json::array()}}).place == "/seed");

@@ -50,7 +50,7 @@ TEST_CASE("gallery edits end where the generator builds the edited model") {
       for (const double x : {0.85 * layer.parameter.min, 0.3 * layer.parameter.max, 0.95 * layer.parameter.max}) {
         const auto truth = build(model, edit.values(x));
         if (!truth.ok()) FAIL(truth.error().message());
-        const auto boxes = test::edited_boxes(shape, evaluate({x}));
+        const auto boxes = test::edited_boxes(shape, evaluate({x}), asset->parts);
         const auto [worst, where] = test::distance_from_truth(boxes, truth->parts, shape.frame.scale);
         std::printf(" %8.3f", 100 * worst);
         if (worst > row.worst) row = {worst, where};
