@@ -12,10 +12,10 @@ namespace {
 
 using gltf::JsonText;
 
-void warn_of_missing_images(const gltf::File& file, const ApplyOptions& options, std::vector<Warning>& warnings) {
+void warn_of_missing_images(const gltf::File& file, std::vector<Warning>& warnings) {
   for (std::size_t i = 0; i < file.size("images"); ++i) {
     const auto uri = file.item("images", i).get("uri").string();
-    if (!uri || uri->substr(0, 5) == "data:" || options.external.count(*uri) > 0) continue;
+    if (!uri || uri->substr(0, 5) == "data:") continue;
     warnings.push_back({"image " + std::to_string(i), "it stays outside of the file: " + *uri});
   }
 }
@@ -62,8 +62,9 @@ Result<Applied> apply_state(std::string_view bytes, const Shape& shape, const St
     apply::write_animation(file, options.sweep->name, options.sweep->seconds, tracks);
     hide(file, edits->nodes);
   }
-  warn_of_missing_images(file, options, out.warnings);
-  auto glb = gltf::write_glb(std::move(file), options.external);
+  gltf::embed(file, options.external);
+  warn_of_missing_images(file, out.warnings);
+  auto glb = gltf::write_glb(std::move(file));
   if (!glb) return glb.error();
   out.glb = std::move(glb).value();
   return out;

@@ -226,9 +226,12 @@ Result<File> read_file(std::string_view bytes, const ExternalFiles& external) {
   return file;
 }
 
-Result<std::string> write_glb(File file, const ExternalFiles& external) {
+void embed(File& file, const ExternalFiles& external) {
   embed_images(file, external);
   embed_buffers(file);
+}
+
+Result<std::string> write_glb(File file) {
   if (file.size("buffers") == 0 && !file.binary.empty()) {
     file.append("buffers", JsonText(ordered_json{{"byteLength", 0}}));
   } else if (file.size("buffers") > 0 && !file.buffers[0]) {

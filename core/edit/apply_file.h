@@ -44,9 +44,11 @@ struct File {
 /// Error: not glTF, not version 2, truncated, not JSON, no object, buffer shorter than its byteLength.
 Result<File> read_file(std::string_view bytes, const ExternalFiles& external);
 
-/// Buffer 0 becomes the binary chunk; buffers given by name become data URIs, images given by name parts of the binary
-/// chunk, so that the result stands alone. Error: buffer 0 is missing, or more than 4 GB.
-Result<std::string> write_glb(File file, const ExternalFiles& external);
+/// Buffers given by name become data URIs, images given by name parts of the binary chunk, so that the file stands alone.
+void embed(File& file, const ExternalFiles& external);
+
+/// Buffer 0 becomes the binary chunk. Error: its bytes are missing, or the result has more than 4 GB.
+Result<std::string> write_glb(File file);
 
 std::string base64_encode(std::string_view bytes);
 /// None when a character is not of the alphabet.
