@@ -3,12 +3,13 @@
 
 namespace parsel::cli {
 
+extern const Command apply_command;
 extern const Command convert_command;
 extern const Command evaluate_command;
 extern const Command inspect_command;
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all = {inspect_command, convert_command, evaluate_command};
+  static const std::vector<Command> all = {inspect_command, convert_command, evaluate_command, apply_command};
   return all;
 }
 

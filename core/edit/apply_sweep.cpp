@@ -14,8 +14,8 @@ using gltf::JsonText;
 using gltf::Placement;
 using nlohmann::ordered_json;
 
-/// Of the error bound, half is for straight lines between keys; morph targets stop well below.
-constexpr double key_error = sweep_error / 2;
+/// Most of the error bound is for straight lines between keys; morph targets stop far below.
+constexpr double key_error = 0.9 * sweep_error;
 constexpr double target_error = 1e-5;
 /// A motion counts as affine when it is so to numerical noise.
 constexpr double affine_error = 1e-7;

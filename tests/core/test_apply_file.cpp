@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/base/random.h"
-#include "tests/core/glb_fixture.h"
+#include "tests/core/apply_fixture.h"
 
 using namespace parsel;
 using namespace parsel::fixture;

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/tolerance.h"
-#include "tests/core/glb_fixture.h"
+#include "tests/core/apply_fixture.h"
 
 using namespace parsel;
 using namespace parsel::fixture;

@@ -1,7 +1,7 @@
 // Accessors that are shared, interleaved, sparse, quantised or outside of the binary chunk.
 #include <doctest/doctest.h>
 
-#include "tests/core/glb_fixture.h"
+#include "tests/core/apply_fixture.h"
 
 using namespace parsel;
 using namespace parsel::fixture;
