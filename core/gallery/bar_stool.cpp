@@ -44,8 +44,6 @@ void layout(ModelBuilder& m) {
         m.part("spoke", spoke_mesh, {Vec3(0, ring_y, 0) + (inner + outer) / 2 * outward, turn(Vec3::UnitY(), angle)}));
   }
   const Side wheel = m.rotation(spokes);
-  m.reflect(0, {{spokes[1], spokes[3]}});
-  m.reflect(2, {{spokes[0], spokes[2]}});
   m.attach(wheel, foot_ring, RelationKind::volume);
   m.attach(wheel, column, RelationKind::face);
 

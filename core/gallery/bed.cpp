@@ -46,7 +46,6 @@ void layout(ModelBuilder& m) {
     slats.push_back(m.part("slat", slat_mesh, {0, slat_y, row * (double(i) / (count - 1) - 0.5)}));
   }
   const Side base = m.translation(slats);
-  m.reflect_row(2, slats);
   m.attach({base}, {left, right}, RelationKind::line);
 
   const double mattress_height = m["mattress_height"], mattress_y = slat_y + slat_thickness / 2 - overlap;
@@ -89,7 +88,7 @@ const GalleryModel bed = {"bed",
                            {"rail_height", 0.14, 0.12, 0.16, "m", "height of the side rails"},
                            {"post_thickness", 0.07, 0.055, 0.09, "m", "section of the posts"},
                            {"head_height", 1.0, 0.8, 1.3, "m", "height of the head posts"},
-                           {"foot_height", 0.6, 0.5, 0.7, "m", "height of the foot posts"},
+                           {"foot_height", 0.66, 0.55, 0.75, "m", "height of the foot posts"},
                            {"slat_count", 13, 9, 16, "count", "number of slats"},
                            {"slat_width", 0.07, 0.05, 0.08, "m", "width of a slat"},
                            {"mattress_height", 0.2, 0.14, 0.26, "m", "thickness of the mattress"},

@@ -18,7 +18,7 @@ void layout(ModelBuilder& m) {
   m.reflect(0, {{left, right}});
 
   // The outer edges of the row of planks keep their share of the supports' depth.
-  const double length = m["overhang"] * 2 * support_x, row = 0.84 * depth - plank_width;
+  const double length = m["overhang"] * 2 * support_x, row = 0.78 * depth - plank_width;
   const MeshId plank_mesh = m.mesh("plank", {length, thickness, plank_width}, wood, rounded_box(0.007));
   std::vector<NodeId> planks;
   for (int i = 0; i < planks_count; ++i) {
@@ -26,7 +26,6 @@ void layout(ModelBuilder& m) {
     planks.push_back(m.part("plank", plank_mesh, {0, height - overlap + thickness / 2, z}));
   }
   const Side seat = m.translation(planks);
-  m.reflect_row(2, planks);
   m.attach({seat}, {left, right}, RelationKind::line);
 
   const double post = m["post_thickness"], post_z = -0.94 * depth / 2;
@@ -47,7 +46,6 @@ void layout(ModelBuilder& m) {
     boards.push_back(m.part("board", board_mesh, {0, y, board_z}));
   }
   const Side back = m.translation(boards);
-  m.reflect_row(1, boards);
   m.attach({back}, {post_left, post_right}, RelationKind::line);
 
   const double metres = m.half_diagonal();

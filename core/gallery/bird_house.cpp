@@ -48,7 +48,7 @@ void layout(ModelBuilder& m) {
 
   const double outside = front_z + wall / 2, entrance_y = bottom + 0.64 * height, perch_y = bottom + 0.33 * height;
   const MeshId entrance_mesh =
-      m.mesh("entrance", {0.056, 0.056, 0.014}, dark,
+      m.mesh("entrance", {m["entrance_share"] * width, 0.076, 0.014}, dark,
              along_z(turned({{0.98, 0}, {1, 0.5}, {0.92, 0.9}, {0.8, 1}, {0.66, 0.85}, {0.6, 0.45}}, 32)));
   const NodeId entrance = m.part("entrance", entrance_mesh, {0, entrance_y, outside - overlap + 0.007});
   const MeshId perch_mesh = m.mesh("perch", {0.012, 0.012, 0.075}, post_wood, along_z(cylinder(0.003, 16)));
@@ -80,8 +80,9 @@ const GalleryModel bird_house = {
      {"wall_thickness", 0.016, 0.012, 0.02, "m", "thickness of the walls"},
      {"roof_overhang", 1.35, 1.2, 1.5, "ratio", "width of the roof as a share of the front"},
      {"roof_height", 0.15, 0.1, 0.22, "m", "height of the roof"},
+     {"entrance_share", 0.29, 0.22, 0.34, "ratio", "width of the entrance as a share of the front"},
      {"pole_height", 0.62, 0.38, 0.9, "m", "length of the pole"},
-     {"pole_diameter", 0.038, 0.03, 0.042, "m", "diameter of the pole"},
+     {"pole_diameter", 0.032, 0.028, 0.042, "m", "diameter of the pole"},
      {"foot_width", 0.24, 0.18, 0.3, "m", "width of the foot"}},
     layout};
 

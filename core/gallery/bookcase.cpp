@@ -32,7 +32,6 @@ void layout(ModelBuilder& m) {
     shelves.push_back(m.part("shelf", shelf_mesh, {0, y, 0}, NodeId::none, "shelf." + std::to_string(i + 1)));
   }
   const Side row = m.translation(shelves);
-  m.reflect_row(1, shelves);
   m.attach({row}, {left, right, panel}, RelationKind::face);
 
   const double spacing = (height - board) / (count - 1);

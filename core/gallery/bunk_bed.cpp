@@ -32,8 +32,7 @@ void layout(ModelBuilder& m) {
     m.attach({platforms.back()}, {front_left, front_right, back_left, back_right}, RelationKind::point);
     m.attach(platforms.back(), mattresses.back(), RelationKind::face);
   }
-  m.reflect_row(1, platforms);
-  m.reflect_row(1, mattresses);
+  m.reflect(1, {{platforms[0], platforms[1]}, {mattresses[0], mattresses[1]}});
 
   const double guard_length = 2 * (post_x - post / 2 + overlap), guard_y = 0.945 * height;
   const MeshId guard_mesh = m.mesh("guard", {guard_length, m["guard_height"], 0.024}, accent, rounded_box(0.006));
@@ -43,9 +42,10 @@ void layout(ModelBuilder& m) {
   m.attach({guard_front}, {front_left, front_right}, RelationKind::line);
   m.attach({guard_back}, {back_left, back_right}, RelationKind::line);
 
-  const double stile = 0.045, ladder_height = 0.9 * height, ladder_z = depth / 2 - overlap + stile / 2;
+  const double stile = 0.045, ladder_height = 0.9 * height, stile_depth = 0.066,
+               ladder_z = depth / 2 - overlap + stile_depth / 2;
   const double stile_x = m["ladder_share"] * length / 2;
-  const MeshId stile_mesh = m.mesh("stile", {stile * 0.8, ladder_height, stile}, accent, rounded_box(0.008));
+  const MeshId stile_mesh = m.mesh("stile", {stile * 0.8, ladder_height, stile_depth}, accent, rounded_box(0.008));
   const NodeId stile_left = m.part("stile", stile_mesh, {stile_x, ladder_height / 2, ladder_z});
   const NodeId stile_right = m.part("stile", stile_mesh, {-stile_x, ladder_height / 2, ladder_z});
   m.reflect(0, {{stile_left, stile_right}});
@@ -53,14 +53,13 @@ void layout(ModelBuilder& m) {
 
   // The rungs' thickness is a share of the height, as a scale of the whole row has it.
   const double rung_length = 2 * (stile_x - 0.4 * stile + overlap), rung = 0.016 * height;
-  const MeshId rung_mesh = m.mesh("rung", {rung_length, rung, 0.026}, wood, rounded_box(0.008, 3));
+  const MeshId rung_mesh = m.mesh("rung", {rung_length, rung, 0.02}, wood, rounded_box(0.008, 3));
   std::vector<NodeId> rungs;
   for (int i = 0; i < count; ++i) {
     rungs.push_back(
         m.part("rung", rung_mesh, {0, ladder_height * (0.5 + 0.72 * (double(i) / (count - 1) - 0.5)), ladder_z}));
   }
   const Side row = m.translation(rungs);
-  m.reflect_row(1, rungs);
   m.attach({row}, {stile_left, stile_right}, RelationKind::face);
 
   m.edit({"lengthen", "Make the bunk bed longer.", {seed_scale_1d(platforms[0], Vec3::UnitX())}, {}, {{row, "scale"}}},

@@ -63,13 +63,9 @@ void layout(ModelBuilder& m) {
     blades.push_back(
         m.part("blade", blade_mesh, {Vec3(0, blade_y, 0) + (inner + outer) / 2 * outward, turn(Vec3::UnitY(), angle)}));
   }
-  const bool is_ring = count > 2;
-  const Side ring = is_ring ? m.rotation(blades) : Side(blades.front());
-  if (is_ring) {
-    for (std::size_t i = 1; 2 * i < blades.size(); ++i) m.reflect(0, {{blades[i], blades[blades.size() - i]}});
-    if (count == 4) m.reflect(2, {{blades[0], blades[2]}});
-    m.attach(ring, motor, RelationKind::face);
-  }
+  // Fewer than three blades are no ring, and only the default number has relations to state.
+  const Side ring = count > 2 ? m.rotation(blades) : Side(blades.front());
+  m.attach(ring, motor, RelationKind::face);
 
   m.edit({"longer_rod", "Hang the fan on a longer rod.", {seed_scale_1d(rod, Vec3::UnitY(), {0, -1, 0})}, {}, {}},
          [=](double x) {

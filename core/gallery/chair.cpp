@@ -68,7 +68,6 @@ void layout(ModelBuilder& m) {
     slats.push_back(m.part("slat", slat_mesh, {x, (slat_bottom + slat_top) / 2, 0}, back));
   }
   const Side row_of_slats = m.translation(slats);
-  m.reflect_row(0, slats);
   m.attach({row_of_slats}, {crest, rail}, RelationKind::face);
 
   m.edit({"widen", "Widen the chair.", {seed_scale_1d(seat, Vec3::UnitX())}, {}, {{row_of_slats, "change_delta"}}},

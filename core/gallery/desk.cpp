@@ -37,8 +37,6 @@ void layout(ModelBuilder& m) {
     handles.push_back(m.part("handle", handle_mesh, Vec3(0, 0, handle_z - face_z), drawers.back()));
   }
   const Side drawer_row = m.translation(drawers), handle_row = m.translation(handles);
-  m.reflect_row(1, drawers);
-  m.reflect_row(1, handles);
   m.attach(drawer_row, left, RelationKind::face);
   m.attach(handle_row, drawer_row, RelationKind::face);
 

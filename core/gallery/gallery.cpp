@@ -7,9 +7,10 @@
 
 namespace parsel {
 namespace gallery {
+Result<GalleryAsset> build_shelf_wall(int part_count);
 extern const GalleryModel chair, armchair, bar_stool, dining_table, round_table, desk, bookcase, cabinet, bed, bunk_bed,
     bench, floor_lamp, picket_fence, ceiling_fan, windmill, gazebo, bird_house, ladder, wagon_wheel;
-}
+}  // namespace gallery
 
 const std::vector<GalleryModel>& gallery_models() {
   using namespace gallery;
@@ -47,10 +48,13 @@ Result<GalleryAsset> build(const GalleryModel& model, const GalleryValues& overr
   }
   gallery::ModelBuilder nominal(model, defaults, nullptr);
   model.layout(nominal);
-  if (values == defaults) return nominal.finish();
   gallery::ModelBuilder builder(model, std::move(values), &nominal.sizes());
   model.layout(builder);
   return builder.finish();
+}
+
+Result<GalleryAsset> scaling_model(int part_count) {
+  return gallery::build_shelf_wall(part_count);
 }
 
 }  // namespace parsel

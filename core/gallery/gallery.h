@@ -49,7 +49,8 @@ struct GalleryRelation {
 struct GalleryEdit {
   std::string id;
   std::string request;  ///< in words
-  std::string json;     ///< format parsel/edit v1; parts are named node:<index>, amounts depend on x in [-0.35, 0.35]
+  /// Format parsel/edit v1, amounts depend on x in [-0.35, 0.35]. Parts are named node:<index>, groups <label>_group.
+  std::string json;
   std::function<GalleryValues(double x)> values;  ///< all parameters that differ from the asset's, within their ranges
 };
 

@@ -48,14 +48,6 @@ void layout(ModelBuilder& m) {
                {{radius * std::sin(angle), column_y, radius * std::cos(angle)}, turn(Vec3::UnitY(), angle)}));
   }
   const Side ring = m.rotation(columns);
-  const auto n = static_cast<std::size_t>(count);
-  for (std::size_t i = 1; 2 * i < n; ++i) m.reflect(0, {{columns[i], columns[n - i]}});
-  if (n % 4 == 0) {
-    for (std::size_t i = 0; i <= n / 4; ++i) {
-      if (4 * i != n) m.reflect(2, {{columns[i], columns[n / 2 - i]}});
-      if (i > 0 && 4 * i != n) m.reflect(2, {{columns[n - i], columns[n / 2 + i]}});
-    }
-  }
   m.attach(ring, floor, RelationKind::face);
 
   const double roof_bottom = column_y + column_height / 2 - overlap;
@@ -107,7 +99,7 @@ const GalleryModel gazebo = {
     {{"diameter", 3.0, 1.9, 4.1, "m", "width of the floor from corner to corner"},
      {"step_height", 0.14, 0.1, 0.2, "m", "height of the step"},
      {"floor_height", 0.12, 0.08, 0.2, "m", "thickness of the floor"},
-     {"column_height", 2.2, 1.2, 3.2, "m", "height of the columns"},
+     {"column_height", 2.2, 1.0, 3.4, "m", "height of the columns"},
      {"column_diameter", 0.16, 0.12, 0.22, "m", "diameter of a column"},
      {"column_share", 0.92, 0.8, 0.95, "ratio", "outer edge of the columns as a share of the floor"},
      {"column_count", 8, 5, 10, "count", "number of columns"},

@@ -149,7 +149,6 @@ Json to_json(const GlbNode& node) {
   if (node.mesh >= 0) json["mesh"] = node.mesh;
   if (!node.children.empty()) json["children"] = node.children;
   if (!node.translation.isZero()) json["translation"] = to_json(node.translation);
-  if (!node.scale.isOnes()) json["scale"] = to_json(node.scale);
   if (!node.rotation.isApprox(Eigen::Quaterniond::Identity())) {
     Json rotation = Json::array();
     for (int i = 0; i < 4; ++i) rotation.push_back(std::round(node.rotation.coeffs()[i] * 1e9) / 1e9 + 0.0);

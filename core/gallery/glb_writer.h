@@ -32,7 +32,6 @@ struct GlbNode {
   int mesh = -1;      ///< -1: a node that only carries a transform
   Vec3 translation = Vec3::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  Vec3 scale = Vec3::Ones();
   std::vector<int> children;
 };
 

@@ -39,7 +39,6 @@ void layout(ModelBuilder& m) {
         m.part("rung", rung_mesh, {0, y, 0}, NodeId::none, i == 0 ? "rung" : "rung.00" + std::to_string(i)));
   }
   const Side row = m.translation(rungs);
-  m.reflect_row(1, rungs);
   m.attach({row}, {stiles[0], stiles[1]}, RelationKind::face);
 
   const double metres = m.half_diagonal();

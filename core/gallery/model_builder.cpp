@@ -58,40 +58,24 @@ MaterialId ModelBuilder::material(const Finish& finish) {
   return static_cast<MaterialId>(scene_.materials.size() - 1);
 }
 
-TriangleMesh ModelBuilder::make(const std::string& name, std::size_t primitive, const Vec3& size, const Solid& solid) {
+MeshId ModelBuilder::mesh(const std::string& name, const Vec3& size, MaterialId material, const Solid& solid) {
+  PARSEL_ASSERT(sizes_.count(name) == 0, "mesh names are unique");
   PARSEL_ASSERT(size.minCoeff() > 0, "a part has a positive size");
-  Vec3 nominal = size;
+  sizes_[name] = size;
+  boxes_.push_back(size);
+  GlbMesh made{name, {{{}, static_cast<int>(material)}}};
   if (nominal_ != nullptr) {
     // A mesh that the default state lacks has no nominal size but its own.
     const auto found = nominal_->find(name);
-    if (found != nominal_->end() && primitive < found->second.size()) nominal = found->second[primitive];
+    const Vec3 nominal = found == nominal_->end() ? size : found->second;
+    TriangleMesh& mesh = made.primitives.front().mesh;
+    mesh = solid(nominal);
+    const Vec3 stretch = size.cwiseQuotient(nominal);
+    for (Vec3& p : mesh.positions) p = p.cwiseProduct(stretch);
+    for (Vec3& n : mesh.normals) n = n.cwiseQuotient(stretch).normalized();
   }
-  TriangleMesh mesh = solid(nominal);
-  const Vec3 stretch = size.cwiseQuotient(nominal);
-  for (Vec3& p : mesh.positions) p = p.cwiseProduct(stretch);
-  for (Vec3& n : mesh.normals) n = n.cwiseQuotient(stretch).normalized();
-  return mesh;
-}
-
-MeshId ModelBuilder::mesh(const std::string& name, const Vec3& size, MaterialId material, const Solid& solid) {
-  PARSEL_ASSERT(sizes_.count(name) == 0, "mesh names are unique");
-  sizes_[name];
-  scene_.meshes.push_back({name, {}});
-  boxes_.emplace_back();
-  const auto id = static_cast<MeshId>(boxes_.size() - 1);
-  add_primitive(id, size, Vec3::Zero(), material, solid);
-  return id;
-}
-
-void ModelBuilder::add_primitive(MeshId mesh, const Vec3& size, const Vec3& offset, MaterialId material,
-                                 const Solid& solid) {
-  const auto index = static_cast<std::size_t>(mesh);
-  GlbMesh& target = scene_.meshes[index];
-  TriangleMesh made = make(target.name, target.primitives.size(), size, solid);
-  for (Vec3& p : made.positions) p += offset;
-  target.primitives.push_back({std::move(made), static_cast<int>(material)});
-  sizes_[target.name].push_back(size);
-  boxes_[index].push_back({size, offset});
+  scene_.meshes.push_back(std::move(made));
+  return static_cast<MeshId>(boxes_.size() - 1);
 }
 
 NodeId ModelBuilder::frame(const std::string& name, const Placement& placement, NodeId parent) {
@@ -100,7 +84,6 @@ NodeId ModelBuilder::frame(const std::string& name, const Placement& placement, 
   node.name = name;
   node.translation = placement.translation;
   node.rotation = placement.rotation;
-  node.scale = placement.scale;
   scene_.nodes.push_back(std::move(node));
   parents_.push_back(static_cast<int>(parent));
   labels_.emplace_back();
@@ -126,10 +109,6 @@ void ModelBuilder::reflect(int axis, std::initializer_list<std::pair<NodeId, Nod
   for (const auto& [a, b] : pairs) {
     relations_.push_back({RelationKind::reflection, {Side(a).nodes, Side(b).nodes}, axis});
   }
-}
-
-void ModelBuilder::reflect_row(int axis, const std::vector<NodeId>& row) {
-  for (std::size_t i = 0; i < row.size() / 2; ++i) reflect(axis, {{row[i], row[row.size() - 1 - i]}});
 }
 
 Side ModelBuilder::translation(const std::vector<NodeId>& instances) {
@@ -164,7 +143,7 @@ void ModelBuilder::attach(std::initializer_list<Side> a, std::initializer_list<S
 Eigen::Affine3d ModelBuilder::world(int node) const {
   const auto index = static_cast<std::size_t>(node);
   const GlbNode& n = scene_.nodes[index];
-  const Eigen::Affine3d local = Eigen::Translation3d(n.translation) * n.rotation * Eigen::Scaling(n.scale);
+  const Eigen::Affine3d local = Eigen::Translation3d(n.translation) * n.rotation;
   return parents_[index] < 0 ? local : world(parents_[index]) * local;
 }
 
@@ -172,16 +151,14 @@ std::vector<GalleryPart> ModelBuilder::parts() const {
   std::vector<GalleryPart> parts;
   for (std::size_t n = 0; n < scene_.nodes.size(); ++n) {
     if (scene_.nodes[n].mesh < 0) continue;
-    const auto& boxes = boxes_[static_cast<std::size_t>(scene_.nodes[n].mesh)];
+    const Vec3 half = boxes_[static_cast<std::size_t>(scene_.nodes[n].mesh)] / 2;
     const Eigen::Affine3d to_world = world(static_cast<int>(n));
-    for (std::size_t p = 0; p < boxes.size(); ++p) {
-      GalleryPart part{static_cast<int>(n), static_cast<int>(p), labels_[n], Corners::Zero()};
-      for (int k = 0; k < 8; ++k) {
-        const Vec3 sign(corner_sign(k, 0), corner_sign(k, 1), corner_sign(k, 2));
-        part.corners.row(k) = to_world * Vec3(boxes[p].offset + boxes[p].size.cwiseProduct(sign) / 2);
-      }
-      parts.push_back(std::move(part));
+    GalleryPart part{static_cast<int>(n), 0, labels_[n], Corners::Zero()};
+    for (int k = 0; k < 8; ++k) {
+      part.corners.row(k) =
+          to_world * Vec3(corner_sign(k, 0) * half.x(), corner_sign(k, 1) * half.y(), corner_sign(k, 2) * half.z());
     }
+    parts.push_back(std::move(part));
   }
   return parts;
 }
@@ -206,7 +183,10 @@ void ModelBuilder::edit(EditDraft draft, std::function<GalleryValues(double)> va
   Json json = {{"seed", Json::array()}, {"disabled", draft.disabled}, {"hints", Json::object()}};
   for (const std::string& statement : draft.seed) json["seed"].push_back(Json::parse(statement));
   for (const auto& [side, hint] : draft.hints) {
-    json["hints"]["node:" + std::to_string(side.nodes.front())] = hint;
+    // The virtual part of a group has no node; its id is made of its instances' label.
+    const auto first = static_cast<std::size_t>(side.nodes.front());
+    const std::string part = side.nodes.size() > 1 ? labels_[first] + "_group" : "node:" + std::to_string(first);
+    json["hints"][part] = hint;
   }
   edits_.push_back({std::move(draft.id), std::move(draft.request), json.dump(), std::move(values)});
 }

@@ -34,14 +34,13 @@ struct Placement {
 
   Vec3 translation;
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  Vec3 scale = Vec3::Ones();
 };
 
 /// A turn of `angle` radians about a unit axis.
 Eigen::Quaterniond turn(const Vec3& axis, double angle);
 
 /// Sizes of all meshes in the model's default state, by mesh name.
-using NominalSizes = std::map<std::string, std::vector<Vec3>, std::less<>>;
+using NominalSizes = std::map<std::string, Vec3, std::less<>>;
 
 /// The seeds and hints of an edit, in the words of parsel/edit v1.
 struct EditDraft {
@@ -53,7 +52,7 @@ struct EditDraft {
 
 class ModelBuilder {
  public:
-  /// `nominal` null: this run is the default state and its sizes are the nominal ones.
+  /// `nominal` null: this run only measures the sizes of meshes, no mesh is made.
   ModelBuilder(const GalleryModel& model, GalleryValues values, const NominalSizes* nominal);
 
   double operator[](std::string_view parameter) const;
@@ -62,21 +61,18 @@ class ModelBuilder {
   MaterialId material(const Finish& finish);
   /// A mesh of `size` metres: the solid made at the nominal size of this name, stretched to `size`. Names are unique.
   MeshId mesh(const std::string& name, const Vec3& size, MaterialId material, const Solid& solid);
-  /// One more primitive of a mesh, its box centred at `offset`.
-  void add_primitive(MeshId mesh, const Vec3& size, const Vec3& offset, MaterialId material, const Solid& solid);
 
   /// A node without a mesh.
   NodeId frame(const std::string& name, const Placement& placement, NodeId parent = NodeId::none);
-  /// A node with a mesh: one part for each primitive. `name` may carry a counter that is no part of the label.
+  /// A node with a mesh: a part. `name`, the label unless given, may carry a counter that is no part of the label.
   NodeId part(const std::string& label, MeshId mesh, const Placement& placement, NodeId parent = NodeId::none,
               const std::string& name = "");
   /// Writes the label into extras and gives the node a meaningless name.
   void label_by_extras(NodeId node, const std::string& name);
 
   // The truth.
+  /// Parts that are mirror images about a plane across `axis`. Instances of one group are not stated again as pairs.
   void reflect(int axis, std::initializer_list<std::pair<NodeId, NodeId>> pairs);
-  /// Pairs the first instance with the last, the second with the last but one, …: a row about its middle.
-  void reflect_row(int axis, const std::vector<NodeId>& row);
   /// Three or more parts at equal distances, in order.
   Side translation(const std::vector<NodeId>& instances);
   /// Three or more parts on a closed ring, in order.
@@ -92,22 +88,18 @@ class ModelBuilder {
   const NominalSizes& sizes() const { return sizes_; }
 
  private:
-  TriangleMesh make(const std::string& name, std::size_t primitive, const Vec3& size, const Solid& solid);
   Eigen::Affine3d world(int node) const;
   std::vector<GalleryPart> parts() const;
   Frame bounds() const;
 
-  struct MeshBox {
-    Vec3 size, offset;
-  };
   const GalleryModel& model_;
   GalleryValues values_;
   const NominalSizes* nominal_;
   NominalSizes sizes_;
   GlbScene scene_;
-  std::vector<std::vector<MeshBox>> boxes_;  // by mesh, then primitive
-  std::vector<int> parents_;                 // by node
-  std::vector<std::string> labels_;          // by node
+  std::vector<Vec3> boxes_;          // size by mesh
+  std::vector<int> parents_;         // by node
+  std::vector<std::string> labels_;  // by node
   std::vector<GalleryRelation> relations_;
   std::vector<GalleryEdit> edits_;
 };

@@ -42,7 +42,6 @@ void layout(ModelBuilder& m) {
     pickets.push_back(m.part("picket", picket_mesh, {x, picket_height / 2, rail / 2 - overlap + thickness / 2}));
   }
   const Side fence = m.translation(pickets);
-  m.reflect_row(0, pickets);
   m.attach({fence}, {lower, upper}, RelationKind::line);
 
   const double metres = m.half_diagonal();

@@ -51,8 +51,8 @@ void layout(ModelBuilder& m) {
                {{radius * std::sin(angle), leg_height / 2, radius * std::cos(angle)}, turn(Vec3::UnitY(), angle)}));
   }
   const Side ring = m.rotation(legs);
-  for (std::size_t i = 1; 2 * i < legs.size(); ++i) m.reflect(0, {{legs[i], legs[legs.size() - i]}});
-  m.attach(ring, top, RelationKind::face);
+  // Three legs under the top are symmetric from left to right, not from front to back.
+  m.attach(ring, top, count % 2 == 1 ? RelationKind::line : RelationKind::face);
 
   const double metres = m.half_diagonal();
   m.edit({"widen",

@@ -48,15 +48,6 @@ void layout(ModelBuilder& m) {
         m.part("spoke", spoke_mesh, {Vec3(0, y, 0) + (inner + outer) / 2 * outward, turn(Vec3::UnitZ(), angle)}));
   }
   const Side ring = m.rotation(spokes);
-  const auto n = static_cast<std::size_t>(count);
-  for (std::size_t i = 1; 2 * i < n; ++i) m.reflect(0, {{spokes[i], spokes[n - i]}});
-  if (n % 4 == 0) {
-    for (std::size_t i = 0; i < n / 4; ++i) {
-      m.reflect(1, {{spokes[i], spokes[n / 2 - i]}});
-      if (i > 0) m.reflect(1, {{spokes[n - i], spokes[n / 2 + i]}});
-    }
-  }
-
   // All is centred about one point, so that whatever touches, and whatever one hoop's box holds, is tied in full.
   m.attach({tyre}, {rim, nave, axle, ring}, RelationKind::volume);
   m.attach({rim}, {nave, axle, ring}, RelationKind::volume);

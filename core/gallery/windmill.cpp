@@ -63,10 +63,6 @@ void layout(ModelBuilder& m) {
                            {Vec3(0, hub_y, sail_z) + (inner + reach) / 2 * outward, turn(Vec3::UnitZ(), angle)}));
   }
   const Side cross = m.rotation(sails);
-  if (count == 4) {
-    m.reflect(0, {{sails[0], sails[3]}, {sails[1], sails[2]}});
-    m.reflect(1, {{sails[0], sails[1]}, {sails[3], sails[2]}});
-  }
   m.attach(cross, axle, RelationKind::face);
 
   m.edit({"raise", "Make the mill taller.", {seed_scale_1d(body, Vec3::UnitY(), {0, -1, 0})}, {}, {}}, [=](double x) {

@@ -170,12 +170,13 @@ Hexahedron oriented_box(const PartMesh& mesh) {
   double turned_volume = aligned_volume;
   for (int axis = 0; axis < 3; ++axis) {
     const Mat3 axes = tightest_about(extremes, Mat3::Identity().row(axis).transpose());
-    const double volume = extent_along(extremes, axes).volume();
+    // Over all points: extreme ones alone make a round part look smaller than it is, and so turn its box at random.
+    const double volume = extent_along(points, axes).volume();
     if (volume < turned_volume * (1 - 1e-6)) turned_volume = volume, turned = axes;
   }
   Mat3 free = principal_axes(extremes);
   for (int round = 0; round < 6; ++round) free = tightest_about(extremes, free.row(round % 3).transpose());
-  const double free_volume = extent_along(extremes, free).volume();
+  const double free_volume = extent_along(points, free).volume();
 
   Mat3 axes = Mat3::Identity();
   if (aligned_volume > axis_snap_ratio * std::min(turned_volume, free_volume)) {
