@@ -2,13 +2,14 @@
 
 #include "core/cli/command.h"
 #include "core/cli/model.h"
+#include "core/cli/program_file.h"
 
 namespace parsel::cli {
 
 namespace {
 
 Error at_path(Error error, const std::string& path) {
-  error.place = path + (error.place.empty() ? "" : ", " + error.place);
+  if (error.place != path) error.place = path + (error.place.empty() ? "" : ", " + error.place);
   return error;
 }
 
@@ -40,12 +41,10 @@ Result<Shape> read_shape(const std::string& path) {
 }
 
 Result<Program> read_program(const std::string& path, const Shape& shape) {
-  const Result<nlohmann::json> json = read_json(path);
-  if (!json) return json.error();
-  Result<Program> program = program_from_json(*json);
-  if (!program) return at_path(program.error(), path);
-  if (const Status valid = validate(*program, shape); !valid) return at_path(valid.error(), path);
-  return program;
+  Result<ProgramFile> file = load_program(path);
+  if (!file) return at_path(file.error(), path);
+  if (const Status valid = validate(file->program, shape); !valid) return at_path(valid.error(), path);
+  return std::move(file->program);
 }
 
 }  // namespace parsel::cli

@@ -15,7 +15,7 @@ Result<Shape> read_shape(const std::string& path);
 
 Result<nlohmann::json> read_json(const std::string& path);
 
-/// A program (JSON) that passes validate() for the shape. Error places begin with the path.
+/// A program (JSON or text) that passes validate() for the shape. Error places begin with the path.
 Result<Program> read_program(const std::string& path, const Shape& shape);
 
 }  // namespace parsel::cli

@@ -14,9 +14,9 @@
 // Numbers. A decimal of at most 12 significant digits between 1e-25 and 1e25 is the exact rational that it reads as, so
 // that 0.5 is 1/2; an integer without point or exponent is always exact; what else is a double.
 //
-// Undefined is NaN, never infinity: division by zero, 0 to a negative power, a root or fractional power of a negative (but
-// down to -1e-12, the noise of an expanded square, it counts as 0), anything too large for a double.
-// NaN goes through every operation. GiNaC simplifies on construction, so that removable singularities vanish: x/x is 1.
+// Undefined is NaN, never infinity: division by zero, 0 to a negative power, a root or fractional power of a negative
+// (but down to -1e-12, the noise of an expanded square, it counts as 0), anything too large for a double. NaN goes
+// through every operation. GiNaC simplifies on construction, so that removable singularities vanish: x/x is 1.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -85,8 +85,8 @@ double apply_operation(CompiledAmount::Op op, double a, double b);
 class Amount {
  public:
   Amount();  ///< zero
-  /// Made of real parameters, real numbers, + - * / ^, pi and the functions of the grammar; asin, acos and atan are taken
-  /// as atan2. Doubles that are short decimals become exact. Other functions are a programmer's error.
+  /// Made of real parameters, real numbers, + - * / ^, pi and the functions of the grammar; asin, acos and atan are
+  /// taken as atan2. Doubles that are short decimals become exact. Other functions are a programmer's error.
   explicit Amount(const GiNaC::ex& expression);
   /// Finite. Exact when it is a decimal of at most 12 digits or the double nearest to a fraction p/q, q ≤ 1,000.
   static Amount constant(double value);
@@ -102,8 +102,8 @@ class Amount {
   /// ∂/∂parameter where it exists; floor counts as constant. Nothing when the closed form leaves the grammar: the
   /// parameter stands in an exponent.
   std::optional<Amount> derivative(const std::string& parameter) const;
-  /// Coefficients that are within `tolerance` of a simple rational, rational multiple of π or square root are put exactly
-  /// on it, others are rounded to a tenth of it, and terms with a coefficient smaller than it are dropped:
+  /// Coefficients that are within `tolerance` of a simple rational, rational multiple of π or square root are put
+  /// exactly on it, others are rounded to a tenth of it, and terms with a coefficient smaller than it are dropped:
   /// 0.4999871*x1 + 1.2e-7 → 0.5*x1. How simple a number must be depends on the tolerance, so that few numbers are near
   /// one by chance. `tolerance` > 0.
   Amount simplified(double tolerance) const;

@@ -165,7 +165,8 @@ std::optional<numeric> exact_decimal(std::string_view text) {
       digits.pop_back();
       ++exponent;
     }
-    const int magnitude = static_cast<int>(digits.size()) + exponent;  // the value is in [10^(magnitude-1), 10^magnitude)
+    const int magnitude =
+        static_cast<int>(digits.size()) + exponent;  // the value is in [10^(magnitude-1), 10^magnitude)
     if (!digits.empty() && (digits.size() > exact_digits || magnitude <= -25 || magnitude > 25)) return std::nullopt;
   }
   if (digits.empty()) return numeric(0);

@@ -14,11 +14,12 @@ DECLARE_FUNCTION_1P(real_floor)
 DECLARE_FUNCTION_2P(real_min)
 DECLARE_FUNCTION_2P(real_max)
 
-/// The name in the grammar of a function that may stand in an amount, "atan" (of one argument) included; empty for others.
+/// The name in the grammar of a function that may stand in an amount, "atan" (of one argument) included; empty for
+/// others.
 std::string_view function_name(const GiNaC::ex& e);
 
-/// The exact rational that a decimal of at most 12 significant digits between 1e-25 and 1e25 stands for; nothing for other
-/// text. The parser, the printer and the Amount's constructor agree on numbers through this one rule.
+/// The exact rational that a decimal of at most 12 significant digits between 1e-25 and 1e25 stands for; nothing for
+/// other text. The parser, the printer and the Amount's constructor agree on numbers through this one rule.
 std::optional<GiNaC::numeric> exact_decimal(std::string_view text);
 
 /// A double as GiNaC's number; denormals, which CLN throws about, are 0.

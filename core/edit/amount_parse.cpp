@@ -1,6 +1,7 @@
-// Recursive descent over the grammar of amount.h, building GiNaC expressions. Hostile text is harmless: length and depth
-// are limited, and numbers are refused before they grow beyond `bits_limit` (9^9^9 would else be computed exactly). What
-// GiNaC would throw about is refused beforehand as far as it is known, since GiNaC leaks the node it throws from.
+// Recursive descent over the grammar of amount.h, building GiNaC expressions. Hostile text is harmless: length and
+// depth are limited, and numbers are refused before they grow beyond `bits_limit` (9^9^9 would else be computed
+// exactly). What GiNaC would throw about is refused beforehand as far as it is known, since GiNaC leaks the node it
+// throws from.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -100,7 +101,8 @@ class Parser {
   }
 
   void skip_blanks() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\r' || text_[at_] == '\n')) {
+    while (at_ < text_.size() &&
+           (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\r' || text_[at_] == '\n')) {
       ++at_;
     }
   }
@@ -280,8 +282,9 @@ class Parser {
     if (!take(')')) return fail(at_, "there should be ',' or ')', not " + here(), "close the parenthesis");
     --depth_;
     if (arguments.size() < function.least || arguments.size() > function.most) {
-      return fail(start, std::string(function.name) + " does not take " + std::to_string(arguments.size()) + " argument" +
-                             (arguments.size() == 1 ? "" : "s"),
+      return fail(start,
+                  std::string(function.name) + " does not take " + std::to_string(arguments.size()) + " argument" +
+                      (arguments.size() == 1 ? "" : "s"),
                   "give it " + std::to_string(function.least) + (function.most > function.least ? " or more" : ""));
     }
     operation_ = start;

@@ -3,6 +3,7 @@
 // Numbers: a rational is a decimal when it ends within 6 places or is shorter so, else a fraction; a double has its
 // shortest text, which exact_decimal() refuses, so that it is read as a double again.
 #include <algorithm>
+#include <sstream>
 #include <string>
 
 #include "core/base/result.h"

@@ -1,8 +1,8 @@
 // Puts noisy coefficients on the simple numbers that they are near.
 //
-// A number is snapped to p/q only while few such numbers exist: fractions with a denominator up to q lie about 1/q² apart
-// on average, so that one is within the tolerance by chance with probability near 2·q²·tolerance; `chance` bounds it.
-// Multiples of π and square roots come after fractions, with fewer members each, under the same bound.
+// A number is snapped to p/q only while few such numbers exist: fractions with a denominator up to q lie about 1/q²
+// apart on average, so that one is within the tolerance by chance with probability near 2·q²·tolerance; `chance` bounds
+// it. Multiples of π and square roots come after fractions, with fewer members each, under the same bound.
 #include <array>
 #include <cmath>
 
@@ -22,7 +22,7 @@ using GiNaC::numeric;
 
 constexpr double chance = 0.06;
 constexpr std::array<long, 8> angle_parts = {1, 2, 3, 4, 5, 6, 8, 12};  ///< π/5 … as designers use them
-constexpr long largest_root = 12;                                      ///< sqrt(2/1) … sqrt(11/12)
+constexpr long largest_root = 12;                                       ///< sqrt(2/1) … sqrt(11/12)
 
 std::optional<ex> near_fraction(double value, double tolerance) {
   for (long q = 1; 2 * static_cast<double>(q * q) * tolerance <= chance && q <= 1000; ++q) {
@@ -39,7 +39,8 @@ std::optional<ex> near_angle(double value, double tolerance) {
   for (const long q : angle_parts) {
     const double p = std::round(value / pi * static_cast<double>(q));
     if (p == 0 || std::abs(p) > 100) continue;
-    if (std::abs(value - p * pi / static_cast<double>(q)) <= tolerance) return numeric(static_cast<long>(p), q) * GiNaC::Pi;
+    if (std::abs(value - p * pi / static_cast<double>(q)) <= tolerance)
+      return numeric(static_cast<long>(p), q) * GiNaC::Pi;
   }
   return std::nullopt;
 }

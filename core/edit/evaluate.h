@@ -1,26 +1,28 @@
 // Evaluates a program at given parameter values: corners in, corners out, nothing solved.
 //
 // The state of a shape is the corners of every part and, for every translation or rotation group, its instances. Layers
-// run in order, and the statements of a layer in order; each depends on the parameters and on its own part or group only.
-// web/src/program/interpret.ts does the same; tests/golden/program_vectors.json keeps the two in step.
+// run in order, and the statements of a layer in order; each depends on the parameters and on its own part or group
+// only. web/src/program/interpret.ts does the same; tests/golden/program_vectors.json keeps the two in step.
 //
-// References (origin, direction, normal) are read on the state at the start of the layer. The direction of a part's axis
-// is the unit vector from its - to its + face centre; when those are closer than 1e-12 the statement does nothing. A
-// literal direction is normalised. An amount that is not finite counts as 0 (validate() refuses such programs).
+// References (origin, direction, normal) are read on the state at the start of the layer. The direction of a part's
+// axis is the unit vector from its - to its + face centre; when those are closer than 1e-12 the statement does nothing.
+// A literal direction is normalised. An amount that is not finite counts as 0 (validate() refuses such programs).
 //
 // A geometric operator
 //   * on a real part moves that part's corners;
 //   * on a member of a group moves that instance alone: not the group's points, not the parent. Refused by validate()
 //     once a change_count on the group stands before it. Member k is instance min(k, n - 1) after that;
-//   * on a virtual part moves the parent's corners; every instance of the group, its start and end (or centre) keep their
-//     local coordinates in the parent. For the whole-part feature that is the operator itself. For other features a point
-//     moves by Σₖ Nₖ(u)·(H'ₖ - Hₖ), u its local coordinates in the parent before the statement (see local_coordinates()).
-//     A rotation group's axis then is along the parent's local axis parent_axis, with the sign that it has at rest (it
-//     stays when that axis is degenerate), and its radius the mean distance of the instances' centres from the axis.
+//   * on a virtual part moves the parent's corners; every instance of the group, its start and end (or centre) keep
+//   their
+//     local coordinates in the parent. For the whole-part feature that is the operator itself. For other features a
+//     point moves by Σₖ Nₖ(u)·(H'ₖ - Hₖ), u its local coordinates in the parent before the statement (see
+//     local_coordinates()). A rotation group's axis then is along the parent's local axis parent_axis, with the sign
+//     that it has at rest (it stays when that axis is degenerate), and its radius the mean distance of the instances'
+//     centres from the axis.
 //
-// Translation groups. Instance i of n stands at p_i = start + i·delta with delta = (end - start)/(n - 1); a single one at
-// (start + end)/2, and then delta is that of the shape at rest. The parent's first side, its corners with sign -direction
-// along `axis`, moves with start, its last side with end.
+// Translation groups. Instance i of n stands at p_i = start + i·delta with delta = (end - start)/(n - 1); a single one
+// at (start + end)/2, and then delta is that of the shape at rest. The parent's first side, its corners with sign
+// -direction along `axis`, moves with start, its last side with end.
 //   * change_delta: instance i moves by (i - i₀)·a·delta, i₀ = 0, (n - 1)/2, n - 1 for anchor start, middle (also fit),
 //     end. start and end move with the first and last instance. n = 1: nothing moves.
 //   * change_count: n' = n + floor(a + 1e-9), clamped to 1…1000. When n' = n nothing changes. Else all n' instances are
@@ -33,8 +35,10 @@
 // Rotation groups; anchors are ignored.
 //   * change_delta: instance k moves by a·r_k, r_k the vector from the axis to the instance's centre (the mean of its
 //     corners). The parent's corner with in-plane signs (s₁, s₂) moves by a·radius·(s₁·e₁ + s₂·e₂), e₁ and e₂ the unit
-//     directions of its two other local axes before the statement, zero when degenerate. Then radius becomes (1 + a)·radius.
-//   * change_count: n' as above; when n' ≠ n, instance k is instance 0 turned by k·2π/n' about the axis. The parent stays.
+//     directions of its two other local axes before the statement, zero when degenerate. Then radius becomes (1 +
+//     a)·radius.
+//   * change_count: n' as above; when n' ≠ n, instance k is instance 0 turned by k·2π/n' about the axis. The parent
+//   stays.
 #pragma once
 
 #include <memory>
@@ -59,9 +63,9 @@ struct State {
   RelationData<GroupState> groups;  ///< empty for relations that are no group
 };
 
-/// Local coordinates of a point in a hexahedron that need not be a box, by Newton's method on the trilinear map from the
-/// affine guess (the map of the corners' mean and the mean axes, exact for a parallelepiped): at most 32 steps, until no
-/// component of a step exceeds 1e-12. Where that fails, the affine guess; where that is singular, the centre.
+/// Local coordinates of a point in a hexahedron that need not be a box, by Newton's method on the trilinear map from
+/// the affine guess (the map of the corners' mean and the mean axes, exact for a parallelepiped): at most 32 steps,
+/// until no component of a step exceeds 1e-12. Where that fails, the affine guess; where that is singular, the centre.
 Vec3 local_coordinates(const Corners& corners, const Vec3& world);
 
 /// A program with its references and amounts compiled for one shape. Holds no reference to either.

@@ -45,7 +45,7 @@ struct Statement {
   std::optional<DirectionReference> direction;  ///< "axis" in JSON for rotate
   std::optional<DirectionReference> normal;
   Anchor anchor = Anchor::middle;
-  Amount amount;
+  Amount amount;  ///< of any parameters of the program; zero for keep_fixed
   std::optional<Why> why;
 };
 
@@ -77,17 +77,56 @@ struct Program {
   std::vector<Layer> layers;
 };
 
+std::string_view to_string(WhyKind kind);
+std::optional<WhyKind> why_kind(std::string_view text);
+std::string_view to_string(RelationStatus status);
+std::optional<RelationStatus> relation_status(std::string_view text);
+std::string_view to_string(Proof proof);
+std::optional<Proof> proof(std::string_view text);
+
+/// What a program may hold, however it was made. Bytes are those of UTF-8.
+struct ProgramLimits {
+  static constexpr std::size_t layers = 100;
+  static constexpr std::size_t statements = 10'000;  ///< in the whole program
+  static constexpr std::size_t reports = 10'000;     ///< a layer
+  static constexpr std::size_t why_relations = 256;  ///< a statement
+  static constexpr std::size_t name_bytes = 200;     ///< ids and names
+  static constexpr std::size_t request_bytes = 4'096;
+  static constexpr std::size_t parameter_bytes = 64;
+  static constexpr std::size_t text_bytes = 8'388'608;  ///< of the text form
+  static constexpr double coordinate = 1e6;             ///< of a literal point
+  static constexpr double shortest_direction = 1e-9;    ///< a literal direction is longer
+  static constexpr double amount = 1e6;                 ///< |amount| over the ranges
+};
+
 /// Untrusted JSON → a well-formed program (structure, types, limits, grammar), independent of any shape. Unknown keys
-/// are refused by name. Error place is a JSON pointer: "/layers/0/statements/3/amount".
+/// are refused by name, and so are those that the operator does not take: translate takes direction; rotate origin and
+/// axis; scale_1d origin and direction; scale_2d origin and normal; scale_3d origin; shear origin, normal and
+/// direction, each with part, amount and, if wanted, feature; change_count and change_delta take relation, amount and,
+/// if wanted, anchor; keep_fixed takes part. Error place is a JSON pointer: "/layers/0/statements/3/amount".
 Result<Program> program_from_json(const nlohmann::json& json);
 nlohmann::json to_json(const Program& program);
 
-/// The text form, one statement a line, lossless. Error place is "line L, column C".
+/// The text form, as in ParSEL's figure 2, lossless but for comments:
+///   parsel program 1
+///   shape "chair" "<sha256>"
+///
+///   layer "widen the chair": x1 = 0 in [-0.35, 0.35]
+///     scale_1d("seat", amount=x1, origin=point("seat", 0, 0, 0), direction=(1, 0, 0)) because seed
+///     rotate("door", amount=pi*x1, origin=(0.2, 0, 0.1), axis=axis("door", 1), feature=(0, 0, 1))   # a comment
+///     change_count("t1", amount=floor(6.1*sqrt(abs(0.1*x1 - 0.4))), anchor=fit) because group "t1", "a2"
+///     keep_fixed("back")
+///     relation "a3": held, worst 1.2e-09, certified
+/// One statement a line, blanks and the order of named fields are free. Strings are quoted as in JSON.
 std::string to_text(const Program& program);
+/// Error place is "line L, column C", both 1-based, columns in characters.
 Result<Program> program_from_text(std::string_view text);
 
-/// Whether the program makes sense for the shape: known parts and relations, fields that the operator needs, amounts
-/// real and finite over the parameters' whole ranges, groups used as groups. Returns the first fault.
+/// Whether the program makes sense for the shape: parts (by id or node:<n>) and relations are known; every statement
+/// has the fields that its operator needs and no other; parameters have unique names and ranges with min <= 0 <= max
+/// and min <= value <= max; amounts name only parameters of the program and are defined, with magnitude up to
+/// ProgramLimits::amount, for all parameters in their ranges; no instance is edited after the count of its group may
+/// have changed. Returns the first fault, its place a JSON pointer as in program_from_json().
 Status validate(const Program& program, const Shape& shape);
 
 }  // namespace parsel

@@ -69,6 +69,15 @@ JetPoint feature_point(const JetCorners& corners, const LocalTriple& at) {
 
 /// A direction as a unit vector; nothing when it is shorter than 1e-12 (the statement then does nothing).
 std::optional<JetPoint> unit(const JetPoint& v) {
+  // A vector along a global axis is normalised exactly; thin factors also multiply twice as fast.
+  const auto is_number = [](const Jet& jet) { return jet.size == 1 && jet.smooth && jet.c[0].low == jet.c[0].high; };
+  if (std::all_of(v.begin(), v.end(), is_number)) {
+    const Vec3 exact(v[0].c[0].low, v[1].c[0].low, v[2].c[0].low);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(exact[axis]) != exact.cwiseAbs().sum() || !(std::abs(exact[axis]) > 1e-12)) continue;
+      return to_jets(exact[axis] < 0 ? Vec3(-Vec3::Unit(axis)) : Vec3(Vec3::Unit(axis)));
+    }
+  }
   const Jet squared = dot(v, v);
   constexpr double shortest = 1e-12;
   if (squared.c[0].high < shortest * shortest) return std::nullopt;

@@ -11,12 +11,13 @@ namespace parsel {
 
 namespace {
 
-constexpr double closed_ratio = 1e-3;   ///< a bound this near to a value that occurs is as good as the maximum
-constexpr double closed_noise = 1e-9;   ///< … or this near, in the normalised frame
-constexpr double bracket_width = 1e-12;
-constexpr int most_brackets = 4000;     ///< amounts looked at while bracketing jumps
-constexpr int most_pieces = 256;        ///< pieces bounded, per layer
-constexpr int coarse_samples = 17;
+constexpr double closed_ratio = 1e-2;  ///< a bound this near to a value that occurs is as good as the maximum
+constexpr double closed_noise = 1e-6;  ///< … or this near, in the normalised frame
+/// Wider than the 1e-9 that change_count forgives, so that a count and a floor() that jump as one are one jump.
+constexpr double bracket_width = 1e-8;
+constexpr int most_brackets = 4000;    ///< amounts looked at while bracketing jumps
+constexpr int most_pieces = 96;        ///< pieces bounded, per layer
+constexpr int coarse_samples = 5;  ///< the search itself looks at the middle of every piece
 constexpr int dense_samples = 257;
 
 /// Splits a range where an amount jumps or has a kink: the closed segments between the brackets.
@@ -139,11 +140,10 @@ std::vector<RelationReport> prove_relations(const Shape& shape, const Program& p
 
   std::vector<Search> searches;
   for (const RelationIndex r : scope.relations) searches.push_back({make_constraint(shape, r)});
-  State state;
   const auto sample = [&](const std::vector<double>& xs, const std::vector<std::size_t>& wanted) {
     for (const double x : xs) {
       values[layer] = x;
-      evaluator(values, state);
+      const State state = evaluator(values);
       for (const std::size_t i : wanted) {
         searches[i].lower = std::max(searches[i].lower, deviation(searches[i].constraint, state));
       }

@@ -11,7 +11,7 @@ namespace parsel {
 
 namespace {
 
-constexpr int steps = 128;
+constexpr int steps = 48;
 constexpr double precision = 1e-6;  ///< of the limit
 constexpr double decimals = 1e4;
 
@@ -29,7 +29,9 @@ class Limits {
       amounts_.push_back(statement.amount.compile(names));
       targets_.push_back(is_geometric(statement.op) ? statement.part : statement.relation);
     }
-    dissolved_ = scope_of(shape, program, layer, {}).dissolved;
+    const Scope scope = scope_of(shape, program, layer, {});
+    dissolved_ = scope.dissolved;
+    edited_ = scope.edited;
   }
 
   /// What goes wrong at x; empty when nothing does.
@@ -40,17 +42,18 @@ class Limits {
       if (std::isnan(amount)) return "the amount of " + targets_[i] + " would be undefined";
       if (!(std::abs(amount) < largest_amount)) return "the amount of " + targets_[i] + " would be too large";
     }
-    evaluator_(values_, state_);
+    const State state = evaluator_(values_);
     for (const PartIndex p : shape_.parts.indices()) {
-      if (!is_active(shape_, p, dissolved_)) continue;
+      if (edited_.count(p) == 0 || !is_active(shape_, p, dissolved_)) continue;
       const Part& part = shape_.parts[p];
-      std::string fault = judge(state_.parts[p], part.hexahedron.corners, part.id);
+      std::string fault = judge(state.parts[p], part.hexahedron.corners, part.id);
       if (!fault.empty()) return fault;
     }
     for (const RelationIndex r : shape_.relations.indices()) {
       const Relation& relation = shape_.relations[r];
-      if (!relation.is_group() || std::count(dissolved_.begin(), dissolved_.end(), r) > 0) continue;
-      const GroupState& group = state_.groups[r];
+      if (!relation.is_group() || edited_.count(relation.parts[0]) == 0) continue;
+      if (std::count(dissolved_.begin(), dissolved_.end(), r) > 0) continue;
+      const GroupState& group = state.groups[r];
       for (std::size_t k = 0; k < group.instances.size(); ++k) {
         const std::size_t member = group.source >= 0 ? static_cast<std::size_t>(group.source) : k;
         const Part& part = shape_.parts[relation.parts[member]];
@@ -74,8 +77,8 @@ class Limits {
   std::vector<CompiledAmount> amounts_;
   std::vector<std::string> targets_;
   std::vector<RelationIndex> dissolved_;
+  std::set<PartIndex> edited_;
   std::vector<double> values_;
-  State state_;
 };
 
 /// The last good value from 0 towards `end`, and why no further.

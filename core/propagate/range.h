@@ -25,7 +25,7 @@ struct Range {
 /// below largest_amount in size. The layers before it stand at their values, later ones are not applied.
 ///
 /// `limit` > 0, usually tau; a layer whose seed is a rotation may deserve more, as its amount is an angle. Steps of
-/// limit/128 find the first failure, bisection its place to limit·1e-6; ends short of the limit are rounded towards 0 to
+/// limit/48 find the first failure, bisection its place to limit·1e-6; ends short of the limit are rounded towards 0 to
 /// four decimals. A failure that comes and goes within one step is not seen. When the shape fails at 0 already (an
 /// earlier layer collapsed a part), the range is [0, 0].
 Range find_range(const Shape& shape, const Program& program, std::size_t layer, double limit);

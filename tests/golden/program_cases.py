@@ -18,8 +18,8 @@ def box(centre, half, axes=IDENTITY):
     return corners
 
 
-def part(name, node, corners, axes=IDENTITY, members=()):
-    return {"id": name, "label": name.split("_")[0], "name": name.replace("_", " "), "node": node,
+def part(name, node, corners, axes=IDENTITY, members=(), group=None):
+    return {**({"group": group} if group else {}), "id": name, "label": name.split("_")[0], "name": name.replace("_", " "), "node": node,
             "primitive": -1 if members else 0, "corners": corners, "axes": axes, "virtual": bool(members),
             "members": list(members)}
 
@@ -54,8 +54,8 @@ SLAT_HALF = [0.04, 0.3, 0.02]
 SLAT_IDS = [f"slat_{i + 1}" for i in range(5)]
 SLATS = shape("slats", [
     part("rail_top", 0, box([0, 0.35, 0], [0.5, 0.05, 0.05])),
-    *[part(SLAT_IDS[i], i + 1, box([x, 0, 0], SLAT_HALF)) for i, x in enumerate(SLAT_X)],
-    part("slats", -1, box([0, 0, 0], [0.44, 0.3, 0.02]), members=SLAT_IDS),
+    *[part(SLAT_IDS[i], i + 1, box([x, 0, 0], SLAT_HALF), group="t1") for i, x in enumerate(SLAT_X)],
+    part("slats", -1, box([0, 0, 0], [0.44, 0.3, 0.02]), members=SLAT_IDS, group="t1"),
 ], [
     {"id": "t1", "kind": "translation", "parts": SLAT_IDS, "parent": "slats", "start": [0.4, 0, 0], "end": [-0.4, 0, 0],
      "axis": 0, "direction": -1},
@@ -78,8 +78,8 @@ def ring_leg(k, n, radius=RING_RADIUS):
 RING_HALF = [0.6, 0.3, 0.6]
 RING = shape("ring", [
     part("top", 0, box([0.1, 0.05, 0.2], [0.7, 0.05, 0.7])),
-    *[part(RING_IDS[k], k + 1, ring_leg(k, 6), ring_axes(k, 6)) for k in range(6)],
-    part("legs", -1, box(RING_CENTRE, RING_HALF), members=RING_IDS),
+    *[part(RING_IDS[k], k + 1, ring_leg(k, 6), ring_axes(k, 6), group="o1") for k in range(6)],
+    part("legs", -1, box(RING_CENTRE, RING_HALF), members=RING_IDS, group="o1"),
 ], [
     {"id": "o1", "kind": "rotation", "parts": RING_IDS, "parent": "legs", "centre": RING_CENTRE, "axis": [0, 1, 0],
      "parent_axis": 1, "radius": RING_RADIUS},

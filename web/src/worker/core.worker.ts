@@ -10,14 +10,16 @@ const crashed = (error: unknown) =>
 
 async function start(module: WebAssembly.Module): Promise<void> {
   const begin = performance.now();
-  core = await createModule({
-    instantiateWasm(imports, receive) {
-      const instance = new WebAssembly.Instance(module, imports);
-      receive(instance);
-      return instance.exports;
-    },
-    print: () => {},
-    printErr: () => {},
+  core = await new Promise<ParselModule>((resolve, reject) => {
+    createModule({
+      instantiateWasm(imports, receive) {
+        WebAssembly.instantiate(module, imports).then(receive, reject); // the loader would swallow a failure
+        return {};
+      },
+      onAbort: reject,
+      print: () => {},
+      printErr: () => {},
+    }).then(resolve, reject);
   });
   // GiNaC's first calls are several times slower than later ones: make them before anybody waits for one.
   core.invoke('warm_up', '{}', [], null);

@@ -17,6 +17,16 @@ export const methodSchemas = {
     parameters: v.strictObject({ equation: v.string(), unknown: v.string() }),
     result: v.strictObject({ solutions: v.array(v.string()) }),
   },
+  /**
+   * Opens a model: buffers are the file and then its external buffers, in the order of their names in `external`. The
+   * shape is `parsel/shape` v1. Sets the core's state: call it with a `state` of its own.
+   */
+  open: {
+    parameters: v.strictObject({ name: v.string(), external: v.array(v.string()) }),
+    result: v.strictObject({ shape: v.looseObject({ format: v.literal('parsel/shape'), version: v.literal(1) }) }),
+  },
+  /** Bytes of the core's memory. It never shrinks, so this is its peak as well. */
+  memory: { parameters: v.strictObject({}), result: v.strictObject({ bytes: v.number() }) },
   /** Goes wrong on purpose: how the recovery below is tested. */
   fail: {
     parameters: v.strictObject({ kind: v.picklist(['exception', 'abort', 'memory', 'hang']) }),

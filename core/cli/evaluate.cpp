@@ -1,0 +1,108 @@
+// parsel evaluate: the corners that a program gives a shape, for tests and other tools.
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "core/cli/command.h"
+#include "core/cli/program_file.h"
+#include "core/edit/evaluate.h"
+
+namespace parsel::cli {
+namespace {
+
+using nlohmann::json;
+
+json corners_json(const Corners& corners) {
+  json out = json::array();
+  for (int k = 0; k < 8; ++k) out.push_back({corners(k, 0), corners(k, 1), corners(k, 2)});
+  return out;
+}
+
+json vector_json(const Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+json group_json(const Relation& relation, const GroupState& group) {
+  json out = {{"instances", json::array()}, {"source", group.source}};
+  for (const Corners& instance : group.instances) out["instances"].push_back(corners_json(instance));
+  if (relation.kind == RelationKind::translation) {
+    out["start"] = vector_json(group.start);
+    out["end"] = vector_json(group.end);
+  } else {
+    out["centre"] = vector_json(group.centre);
+    out["axis"] = vector_json(group.axis);
+    out["radius"] = group.radius;
+  }
+  return out;
+}
+
+Result<Shape> load_shape(const std::string& path) {
+  const Result<std::string> bytes = read_file(path);
+  if (!bytes.ok()) return bytes.error();
+  const json file = json::parse(*bytes, nullptr, false);
+  if (file.is_discarded()) return Error{"cli", path, "it is not valid JSON", "pass the output of parsel inspect"};
+  Result<Shape> shape = shape_from_json(file);
+  if (!shape.ok()) return shape;
+  const Status valid = validate(*shape);
+  if (!valid.ok()) return valid.error();
+  return shape;
+}
+
+/// `--set x1=0.2` for some of the parameters; the others have their value in the program.
+Result<std::vector<double>> parameter_values(const Program& program, const Arguments& arguments) {
+  std::vector<double> values;
+  for (const Layer& layer : program.layers) values.push_back(layer.parameter.value);
+  const auto [first, last] = arguments.options.equal_range("--set");
+  for (auto option = first; option != last; ++option) {
+    const std::string& text = option->second;
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    const std::string number = equals == std::string::npos ? "" : text.substr(equals + 1);
+    std::size_t found = 0;
+    while (found < values.size() && program.layers[found].parameter.name != name) ++found;
+    if (found == values.size())
+      return Error{"cli", "--set " + text, "no layer has this parameter", "write --set x1=0.2"};
+    char* end = nullptr;
+    values[found] = std::strtod(number.c_str(), &end);
+    if (number.empty() || *end != '\0' || !std::isfinite(values[found])) {
+      return Error{"cli", "--set " + text, "there should be a number after =", "write --set x1=0.2"};
+    }
+    const Parameter& p = program.layers[found].parameter;
+    if (values[found] < p.min || values[found] > p.max) {
+      return Error{"cli", "--set " + text, "the value is outside the parameter's range", "stay within min and max"};
+    }
+  }
+  return values;
+}
+
+int run(const Arguments& arguments) {
+  if (arguments.positional.size() != 2) return misuse("evaluate takes a shape and a program");
+  const Result<Shape> shape = load_shape(arguments.positional[0]);
+  if (!shape.ok()) return refuse(shape.error());
+  const Result<ProgramFile> file = load_program(arguments.positional[1]);
+  if (!file.ok()) return refuse(file.error());
+  const Status valid = validate(file->program, *shape);
+  if (!valid.ok()) return refuse(valid.error());
+  const Result<std::vector<double>> values = parameter_values(file->program, arguments);
+  if (!values.ok()) return refuse(values.error());
+  const State state = Evaluator(file->program, *shape)(*values);
+  json out = {{"parts", json::object()}, {"groups", json::object()}};
+  for (const PartIndex p : shape->parts.indices()) out["parts"][shape->parts[p].id] = corners_json(state.parts[p]);
+  for (const RelationIndex r : shape->relations.indices()) {
+    const Relation& relation = shape->relations[r];
+    if (relation.is_group()) out["groups"][relation.id] = group_json(relation, state.groups[r]);
+  }
+  return write_json(arguments, out);
+}
+
+}  // namespace
+
+extern const Command evaluate_command;
+const Command evaluate_command = {"evaluate",
+                                  "SHAPE.json PROGRAM [--set x1=0.2]… [-o STATE.json]",
+                                  "Prints the corners of all parts and group instances under a program.",
+                                  {"--set", "-o"},
+                                  {},
+                                  run};
+
+}  // namespace parsel::cli

@@ -1,0 +1,110 @@
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/shape/attachment.h"
+#include "tests/core/shape_fixture.h"
+
+using namespace parsel;
+using fixture::attached;
+using fixture::box;
+using fixture::Named;
+
+namespace {
+
+const Relation& attachment(const Shape& shape, const std::string& a, const std::string& b) {
+  for (const Relation& r : shape.relations) {
+    if (r.is_attachment() && shape.parts[r.parts[0]].id == a && shape.parts[r.parts[1]].id == b) return r;
+  }
+  FAIL("no attachment of " << a << " and " << b);
+  return *shape.relations.begin();
+}
+
+}  // namespace
+
+TEST_CASE("a leg is attached to a top at a point, a back to a seat along a line, a stand to a plate over a face") {
+  const Shape table = fixture::shape(fixture::table());
+  CHECK(attached(table, "leg_front_left", "top") == "point");
+  CHECK(fixture::count(table, RelationKind::point) == 4);
+  CHECK(table.relations.size() == 8);
+
+  const Shape chair = fixture::shape(
+      {{"seat", box({0, 0.45, 0}, {0.5, 0.04, 0.5})}, {"back", box({0, 0.72, -0.23}, {0.5, 0.5, 0.04})}});
+  CHECK(attached(chair, "seat", "back") == "line");
+
+  const Shape lamp =
+      fixture::shape({{"plate", box({0, 0.01, 0}, {0.3, 0.02, 0.3})}, {"stand", box({0, 0.42, 0}, {0.04, 0.8, 0.04})}});
+  CHECK(attached(lamp, "plate", "stand") == "face");
+
+  const Shape drawer =
+      fixture::shape({{"case", box({0, 0, 0}, {1, 1, 1})}, {"drawer", box({0.2, 0.1, 0.3}, {0.4, 0.2, 0.3})}});
+  CHECK(attached(drawer, "case", "drawer") == "volume");
+}
+
+TEST_CASE("points lie at the ends of the region, exactly on the parts' own faces and planes") {
+  // The leg ends 3 mm short of the top: close enough to stand under it.
+  auto parts = fixture::table();
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    for (Vec3& p : parts[i].mesh.positions) p.y() = p.y() > 0.3 ? 0.697 : 0.0;
+  }
+  const Shape table = fixture::shape(parts);
+  const Attachment& leg = std::get<Attachment>(attachment(table, "top", "leg_front_left").detail);
+  REQUIRE(leg.points.size() == 1);
+  CHECK(leg.local_a[0][1] == -1);
+  CHECK(leg.local_b[0] == Vec3(0, 1, 0));
+
+  const Shape chair = fixture::shape(
+      {{"seat", box({0, 0.45, 0}, {0.5, 0.04, 0.5})}, {"back", box({0, 0.72, -0.23}, {0.496, 0.5, 0.04})}});
+  const Attachment& line = std::get<Attachment>(attachment(chair, "seat", "back").detail);
+  REQUIRE(line.points.size() == 2);
+  CHECK(line.local_a[0][0] == -1);
+  CHECK(line.local_a[1][0] == 1);
+  CHECK(line.local_b[0][0] == -1);
+  CHECK(line.local_b[1] == Vec3(1, -1, 0));
+}
+
+TEST_CASE("parts that touch at an edge are attached, parts that are apart are not") {
+  const Shape edge = fixture::shape({{"a", box({0, 0, 0}, {1, 1, 1})}, {"b", box({1, 1, 0}, {1, 1, 1})}});
+  CHECK(attached(edge, "a", "b") == "line");
+  const Shape apart = fixture::shape({{"a", box({0, 0, 0}, {1, 1, 1})}, {"b", box({1.2, 0, 0}, {1, 1, 1})}});
+  CHECK(attached(apart, "a", "b") == "");
+}
+
+TEST_CASE("legs that end short of the top are attached all the same when nothing else carries it") {
+  auto parts = fixture::table();
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    for (Vec3& p : parts[i].mesh.positions) p.y() = p.y() > 0.3 ? 0.688 : 0.0;  // 12 mm, 0.015 of the half-diagonal
+  }
+  CHECK(fixture::count(fixture::shape(parts), RelationKind::point) == 4);
+}
+
+TEST_CASE("crossed boards are not one block: only the plane that both share counts") {
+  const auto board = [](double angle) {
+    return fixture::turned(box({0, 0.5, 0}, {0.06, 1.2, 0.03}), {0, 0.5, 0}, Vec3::UnitZ(), angle);
+  };
+  const Shape shape = fixture::shape({{"leg one", board(0.6)}, {"leg two", board(-0.6)}});
+  CHECK(attached(shape, "leg_one", "leg_two") == "line");
+}
+
+TEST_CASE("a group inherits the attachments of its instances, and which count depends on whether it stands") {
+  const Shape chair = fixture::shape(fixture::slat_chair(5));
+  CHECK(attached(chair, "slat_group", "seat") == "line");
+  CHECK(attached(chair, "slat_group", "top_rail") != "");
+  CHECK(attached(chair, "slat_left", "seat") != "");
+  CHECK(attached(chair, "slat_group", "slat_left") == "");
+  const auto group = chair.parts[*chair.find_part("slat_group")].group;
+  REQUIRE(group);
+  for (const bool dissolve : {false, true}) {
+    const std::vector<RelationIndex> dissolved =
+        dissolve ? std::vector<RelationIndex>{*group} : std::vector<RelationIndex>{};
+    CHECK(is_active(chair, *chair.find_part("slat_group"), dissolved) != dissolve);
+    CHECK(is_active(chair, *chair.find_part("slat_center"), dissolved) == dissolve);
+    CHECK(is_active(chair, *group, dissolved) != dissolve);
+    CHECK(active_parts(chair, dissolved).size() == (dissolve ? 11 : 7));
+    for (const RelationIndex r : active_relations(chair, dissolved)) {
+      if (chair.relations[r].is_group()) continue;
+      for (const PartIndex p : chair.relations[r].parts) CHECK(is_active(chair, p, dissolved));
+    }
+  }
+}
