@@ -1,5 +1,6 @@
 #include "core/shape/words.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -21,6 +22,23 @@ Vec3 reach(const Hexahedron& h) {
 
 Vec3 centre(const Part& part) {
   return part.hexahedron.point(Vec3::Zero());
+}
+
+/// Whether an id's words are those of the name, in any order: then the name adds nothing.
+bool says_the_same(const std::string& id, const std::string& name) {
+  const auto words = [](const std::string& text) {
+    std::vector<std::string> out(1);
+    for (const char c : text) {
+      if (c == '_' || c == ' ' || c == '-') {
+        out.emplace_back();
+      } else {
+        out.back() += c;
+      }
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+  };
+  return words(id) == words(name);
 }
 
 struct Whole {
@@ -120,11 +138,14 @@ std::string describe(const Shape& shape) {
                      " parts. Its width : height : depth are as " + percent(whole.size[0] / longest) + " : " +
                      percent(whole.size[1] / longest) + " : " + percent(whole.size[2] / longest) + ".\n";
   text +=
-      "Parts, as: id \"name\": width x height x depth at (from right to left, from bottom to top, from back to front), "
+      "Parts, as: id \"name where the id does not say it\": width x height x depth at (from right to left, from bottom "
+      "to top, from back to front), "
       "all in percent of the whole shape.\n";
   for (const PartIndex p : parts) {
     const Part& part = shape.parts[p];
-    text += "- " + part.id + " " + quoted_name(part.name) + ": " + size_and_place(part, whole);
+    text += "- " + part.id;
+    if (!says_the_same(part.id, part.name)) text += " " + quoted_name(part.name);
+    text += ": " + size_and_place(part, whole);
     if (part.is_virtual()) {
       const Relation& relation = shape.relations[*part.group];
       text += "; stands for relation " + relation.id + ", " + group_words(shape, relation) + "; each " +
@@ -133,18 +154,23 @@ std::string describe(const Shape& shape) {
     text += "\n";
   }
   std::string mirrors;
-  std::map<PartIndex, std::string> joints;  // under the first of the two parts
+  std::map<PartIndex, std::map<RelationKind, std::string>> joints;  // under the first of the two parts
   for (const RelationIndex r : relations) {
     const Relation& relation = shape.relations[r];
     if (relation.kind == RelationKind::reflection) mirrors += "- " + relation.id + ": " + describe(shape, r) + ".\n";
     if (!relation.is_attachment()) continue;
-    std::string& line = joints[relation.parts[0]];
-    line += (line.empty() ? " " : "; ") + shape.parts[relation.parts[1]].id + " " + joint_words(relation.kind) + " (" +
-            relation.id + ")";
+    std::string& list = joints[relation.parts[0]][relation.kind];
+    list += (list.empty() ? " " : ", ") + shape.parts[relation.parts[1]].id + " (" + relation.id + ")";
   }
   if (!mirrors.empty()) text += "Mirror images:\n" + mirrors;
-  if (!joints.empty()) text += "Joints, as: part is joined to other part:\n";
-  for (const auto& [part, line] : joints) text += "- " + shape.parts[part].id + " is joined to" + line + ".\n";
+  if (!joints.empty()) text += "Joints (relation):\n";
+  for (const auto& [part, kinds] : joints) {
+    std::string line;
+    for (const auto& [kind, list] : kinds) {
+      line += (line.empty() ? " is joined " : "; ") + std::string(joint_words(kind)) + " to" + list;
+    }
+    text += "- " + shape.parts[part].id + line + ".\n";
+  }
   return text;
 }
 

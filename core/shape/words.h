@@ -10,8 +10,8 @@
 
 namespace parsel {
 
-/// The active parts and relations (groups standing), a line each: id, name, size and place in percent of the whole;
-/// groups with their instances; joints collected by part. Around 60 bytes a part and 30 a joint.
+/// The active parts and relations (groups standing), a line each: id, size and place in percent of the whole, the name
+/// where the id does not say the same; groups with their instances; joints collected by part.
 std::string describe(const Shape& shape);
 
 /// One relation as a sentence without a full stop: "leg_left and leg_right are mirror images of each other, left and

@@ -13,7 +13,8 @@ using namespace parsel;
 namespace {
 
 std::string fault(const std::function<void(Shape&)>& change) {
-  Shape shape = fixture::shape(fixture::slat_chair(4));
+  static const Shape good = fixture::shape(fixture::slat_chair(4));
+  Shape shape = good;
   change(shape);
   const Status sound = validate(shape);
   return sound.ok() ? "" : sound.error().message();

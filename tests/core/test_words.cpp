@@ -11,7 +11,7 @@ TEST_CASE("a shape is described with its parts, groups, mirror images and joints
   const std::string words = describe(fixture::shape(fixture::slat_chair(5)));
   CAPTURE(words);
   for (const char* piece :
-       {"seat \"seat\": 100 x 4 x 100 at (50, 46, 50)", "leg_front_left \"front left leg\"", "slat_group",
+       {"- seat: 100 x 4 x 100 at (50, 46, 50)", "- leg_front_left: ", "slat_group",
         "5 parts at equal distances from right to left: slat_right, slat_right_center, slat_center, slat_left_center, "
         "slat_left",
         "leg_front_right are mirror images of each other, left and right", "top_rail"}) {
@@ -43,6 +43,11 @@ TEST_CASE("eighty parts are described compactly") {
         {"block number " + std::string(1, static_cast<char>('a' + i % 26)), fixture::box({x, y, 0}, {0.995, h, 1})});
   }
   const std::string words = describe(fixture::shape(parts));
+  CHECK(describe(fixture::shape({{"K\xc3\xbc"
+                                  "che",
+                                  fixture::box({0, 0, 0}, {1, 1, 1})}}))
+            .find("k_che \"k\xc3\xbc"
+                  "che\"") != std::string::npos);
   MESSAGE("80 parts: " << words.size() << " bytes");
   CHECK(words.size() < 16000);
 }
