@@ -34,7 +34,7 @@ std::vector<ClosedForm> driving_amounts(const std::vector<PointConstraint>& cons
     for (const Step& step : edits[constraint.other]->steps) {
       ClosedForm form{step.amount, step.values};
       if (step.what.op == Op::change_count) {
-        form.expression = real_floor(step.amount).hold();
+        form.expression = counted(step.amount);
         for (double& value : form.values) value = std::floor(value + noise);
       }
       const auto equals = [&form](const ClosedForm& other) { return largest_difference(form.values, other.values) < noise; };
@@ -84,7 +84,27 @@ std::optional<ClosedForm> AmountSolver::proportional(const Candidate& candidate,
     Samples product;
     for (std::size_t s = 0; s < sample_count; ++s) product[s] = factor * drive.values[s];
     if (largest_difference(product, wanted) > same) continue;
-    return accept(number(factor) * drive.expression, candidate, wanted);
+    return shorten(factor, drive, candidate, wanted);
+  }
+  return std::nullopt;
+}
+
+std::optional<ClosedForm> AmountSolver::shorten(double factor, const ClosedForm& drive, const Candidate& candidate,
+                                                const Samples& wanted) const {
+  // Only the factor: the drive is as short as it can be, and the place of its jumps must not move.
+  const double reach = candidate.field.cwiseAbs().maxCoeff();
+  const ex exact_factor = number(factor);
+  std::vector<ex> factors;
+  for (const double tolerance : {1e-3, 1e-5, 1e-8}) factors.push_back(Amount(exact_factor).simplified(tolerance).expression());
+  factors.push_back(exact_factor);
+  for (const ex& simple : factors) {
+    const double value = Amount(simple).compile({})(nullptr);
+    if (value == 0) continue;
+    Samples values;
+    for (std::size_t s = 0; s < sample_count; ++s) values[s] = value * drive.values[s];
+    if (largest_difference(values, wanted) * reach <= simplification_slack) {
+      return ClosedForm{simple * drive.expression, values};
+    }
   }
   return std::nullopt;
 }

@@ -104,6 +104,10 @@ Motion motion_of(const Shape& shape, PartIndex part, const std::vector<Step>& st
   return motion;
 }
 
+ex counted(const ex& amount) {
+  return real_floor(amount + Amount::constant(noise).expression()).hold();
+}
+
 ex number(double value) {
   return std::abs(value) < 1e-12 ? ex(0) : Amount::constant(value).expression();
 }
@@ -116,7 +120,7 @@ SymbolicMotion symbolic_motion(const Shape& shape, PartIndex part, const std::ve
     const ResolvedOperator& what = step.what;
     if (!is_geometric(what.op)) {
       const Corners field = group_field(shape, part, what.op, step.anchor);
-      const ex amount = what.op == Op::change_count ? real_floor(step.amount).hold() : step.amount;
+      const ex amount = what.op == Op::change_count ? counted(step.amount) : step.amount;
       for (std::size_t k = 0; k < 8; ++k) {
         for (std::size_t c = 0; c < 3; ++c) {
           moved[k][c] += number(field(static_cast<int>(k), static_cast<int>(c))) * amount;

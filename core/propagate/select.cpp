@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 namespace parsel {
 
@@ -50,10 +51,7 @@ double arap_energy(const Corners& rest, const Corners& deformed) {
 }
 
 bool Rank::operator<(const Rank& other) const {
-  if (symmetry_cost != other.symmetry_cost) return symmetry_cost < other.symmetry_cost;
-  // Energies that differ by rounding are equal.
-  if (std::abs(energy - other.energy) > 1e-9 + 1e-6 * std::max(energy, other.energy)) return energy < other.energy;
-  return preference < other.preference;
+  return std::tie(symmetry_cost, energy, preference) < std::tie(other.symmetry_cost, other.energy, other.preference);
 }
 
 Rank rank_of(const Candidate& candidate, const Samples& amount, const Corners& rest) {

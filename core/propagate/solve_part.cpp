@@ -12,6 +12,8 @@ namespace {
 
 /// Errors below this are rounding: between edits of equal rank, one that fits perfectly is no coincidence.
 constexpr double perfect = 1e-6;
+/// Energies within this factor count as equal.
+constexpr double similar_energy = 1.05;
 
 /// A candidate, or a pair of them, that fits the constraints.
 struct Survivor {
@@ -41,7 +43,7 @@ class Search {
       trace_.why = "no translation follows exactly, and at rest the part is off by less than a part may be";
       return {Outcome::left_alone, WhyKind::attachment, {}};
     }
-    if (attempt(own_, rigid, options.exact) || attempt(own_, moves, options.one_edited)) return solution_;
+    if (attempt(own_, rigid, options.exact) || attempt(own_, moves, options.one_edited / 2)) return solution_;
     if (is_group && !fills_ && attempt_group_pairs(options.exact)) return solution_;
     if (attempt(own_, plain, options.exact)) return solution_;
     if (options.neighbour_edits) {
@@ -151,12 +153,23 @@ class Search {
     return choose(survivors, tolerance, kind);
   }
 
+  /// Best first. Energies that differ by little decide nothing: the amounts are fits, and a wrong operator with a slightly
+  /// smaller amount would win over the right one. Then the plainer operator comes first, then the one that fits perfectly.
   static void sort(std::vector<Survivor>& survivors) {
-    std::stable_sort(survivors.begin(), survivors.end(), [](const Survivor& a, const Survivor& b) {
-      if (a.rank < b.rank) return true;
-      if (b.rank < a.rank) return false;
-      return (a.fit.error < perfect) && !(b.fit.error < perfect);
-    });
+    std::stable_sort(survivors.begin(), survivors.end(),
+                     [](const Survivor& a, const Survivor& b) { return a.rank < b.rank; });
+    for (auto first = survivors.begin(); first != survivors.end();) {
+      const int cost = first->rank.symmetry_cost;
+      const double similar = first->rank.energy * similar_energy + 1e-9;
+      const auto last = std::find_if(first, survivors.end(), [&](const Survivor& s) {
+        return s.rank.symmetry_cost != cost || s.rank.energy > similar;
+      });
+      std::stable_sort(first, last, [](const Survivor& a, const Survivor& b) {
+        if (a.rank.preference != b.rank.preference) return a.rank.preference < b.rank.preference;
+        return (a.fit.error < perfect) && !(b.fit.error < perfect);
+      });
+      first = last;
+    }
   }
 
   bool choose(std::vector<Survivor>& survivors, double tolerance, WhyKind kind) {
@@ -192,8 +205,11 @@ class Search {
     if (survivor.second == nullptr) {
       if (!add(*survivor.first, solver.solve(*survivor.first, survivor.fit.amount))) return std::nullopt;
     } else {
-      if (!add(*survivor.first, solver.proportional(*survivor.first, survivor.fit.amount))) return std::nullopt;
+      // The translation comes last, so that the other's origin is where the fit took it to be.
       if (!add(*survivor.second, solver.proportional(*survivor.second, survivor.fit.second))) return std::nullopt;
+      if (hint_ == Hint::change_count && steps.back().what.op == Op::change_delta) add_count(steps);
+      if (!add(*survivor.first, solver.proportional(*survivor.first, survivor.fit.amount))) return std::nullopt;
+      return steps;
     }
     if (hint_ == Hint::change_count && steps.back().what.op == Op::change_delta) add_count(steps);
     return steps;

@@ -217,9 +217,9 @@ TEST_CASE("a part whose neighbour is widened and raised at once gets both edits"
   const Propagation found = run(shape, {{"seed", {scale_seat(), translate("seat", Vec3::UnitY(), "0.5*x")}}});
   const auto back = statements_of(found, "back");
   REQUIRE(back.size() == 2);
-  CHECK(back[0].op == Op::translate);
-  CHECK(back[0].amount.text() == "0.5*x1");
-  CHECK(back[1].op == Op::scale_1d);
+  CHECK(back[0].op == Op::scale_1d);
+  CHECK(back[1].op == Op::translate);
+  CHECK(back[1].amount.text() == "0.5*x1");
   check_all_held(found);
 }
 
