@@ -1,6 +1,4 @@
 // parsel evaluate: the corners that a program gives a shape, for tests and other tools.
-#include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "core/cli/command.h"
@@ -46,33 +44,6 @@ Result<Shape> load_shape(const std::string& path) {
   const Status valid = validate(*shape);
   if (!valid.ok()) return valid.error();
   return shape;
-}
-
-/// `--set x1=0.2` for some of the parameters; the others have their value in the program.
-Result<std::vector<double>> parameter_values(const Program& program, const Arguments& arguments) {
-  std::vector<double> values;
-  for (const Layer& layer : program.layers) values.push_back(layer.parameter.value);
-  const auto [first, last] = arguments.options.equal_range("--set");
-  for (auto option = first; option != last; ++option) {
-    const std::string& text = option->second;
-    const std::size_t equals = text.find('=');
-    const std::string name = text.substr(0, equals);
-    const std::string number = equals == std::string::npos ? "" : text.substr(equals + 1);
-    std::size_t found = 0;
-    while (found < values.size() && program.layers[found].parameter.name != name) ++found;
-    if (found == values.size())
-      return Error{"cli", "--set " + text, "no layer has this parameter", "write --set x1=0.2"};
-    char* end = nullptr;
-    values[found] = std::strtod(number.c_str(), &end);
-    if (number.empty() || *end != '\0' || !std::isfinite(values[found])) {
-      return Error{"cli", "--set " + text, "there should be a number after =", "write --set x1=0.2"};
-    }
-    const Parameter& p = program.layers[found].parameter;
-    if (values[found] < p.min || values[found] > p.max) {
-      return Error{"cli", "--set " + text, "the value is outside the parameter's range", "stay within min and max"};
-    }
-  }
-  return values;
 }
 
 int run(const Arguments& arguments) {

@@ -1,9 +1,11 @@
-// Reading editing programs in either form.
+// Reading editing programs in either form, and the values that options give their parameters.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
+#include "core/cli/command.h"
 #include "core/edit/program.h"
 
 namespace parsel::cli {
@@ -17,5 +19,8 @@ struct ProgramFile {
 
 /// JSON when the first character that is no blank is '{', else the text form.
 Result<ProgramFile> load_program(const std::string& path);
+
+/// One value a layer: `--set x1=0.2` for some of the parameters; the others have their value in the program.
+Result<std::vector<double>> parameter_values(const Program& program, const Arguments& arguments);
 
 }  // namespace parsel::cli

@@ -23,9 +23,9 @@ void warn_of_missing_images(const gltf::File& file, std::vector<Warning>& warnin
 /// Nodes that only the animation shows start invisible.
 void hide(gltf::File& file, const std::vector<apply::NodeEdit>& edits) {
   for (const apply::NodeEdit& edit : edits) {
-    const bool hidden = std::any_of(edit.slots.begin(), edit.slots.end(), [](const apply::Slot& s) { return s.keep; }) &&
-                        std::all_of(edit.slots.begin(), edit.slots.end(),
-                                    [](const apply::Slot& s) { return !s.keep || s.hidden; });
+    const bool hidden =
+        std::any_of(edit.slots.begin(), edit.slots.end(), [](const apply::Slot& s) { return s.keep; }) &&
+        std::all_of(edit.slots.begin(), edit.slots.end(), [](const apply::Slot& s) { return !s.keep || s.hidden; });
     JsonText* node = file.find_item("nodes", edit.node);
     if (hidden && !node->has("matrix")) node->set("scale", JsonText(nlohmann::ordered_json{0, 0, 0}));
   }
@@ -49,7 +49,8 @@ Result<Applied> apply_state(std::string_view bytes, const Shape& shape, const St
   std::vector<apply::Track> tracks;
   if (options.sweep) {
     tracks = apply::plan_tracks(file, *scene, shape.frame, edits->nodes, out.warnings);
-    if (tracks.empty()) out.warnings.push_back({"animation " + options.sweep->name, "nothing moves, so it is left out"});
+    if (tracks.empty())
+      out.warnings.push_back({"animation " + options.sweep->name, "nothing moves, so it is left out"});
   }
   if (file.is_glb && !edits->any && tracks.empty()) {
     out.glb = std::string(bytes);

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <tuple>
 
 namespace parsel::gltf {
 namespace {
@@ -75,22 +74,6 @@ double component(const char* bytes, std::size_t type, bool normalized) {
     default:
       return load<float>(bytes);
   }
-}
-
-/// The byte range of a buffer view in its buffer.
-struct ViewRange {
-  std::size_t buffer = 0, begin = 0, end = 0;
-};
-
-std::optional<ViewRange> view_range(const File& file, std::size_t view) {
-  const JsonText& json = file.item("bufferViews", view);
-  const auto buffer = json.get("buffer").index();
-  const auto length = json.get("byteLength").index();
-  if (!buffer || !length || *buffer >= file.buffers.size()) return std::nullopt;
-  const std::size_t begin = json.has("byteOffset") ? json.get("byteOffset").index().value_or(SIZE_MAX) : 0;
-  const std::size_t size = file.item("buffers", *buffer).get("byteLength").index().value_or(0);
-  if (begin > size || *length > size - begin) return std::nullopt;
-  return ViewRange{*buffer, begin, begin + *length};
 }
 
 /// The layout of `count` elements of a type in a view, as an accessor or a sparse part of one has them.
@@ -161,15 +144,6 @@ Status apply_sparse(const File& file, std::size_t accessor, const Layout& base, 
   return success();
 }
 
-/// Whether two accessors of one buffer view touch no byte in common.
-bool disjoint(const Layout& a, const Layout& b) {
-  if (a.end() <= b.begin || b.end() <= a.begin) return true;
-  if (a.stride != b.stride) return false;
-  const std::size_t shift = b.begin >= a.begin ? (b.begin - a.begin) % a.stride
-                                               : (a.stride - (a.begin - b.begin) % a.stride) % a.stride;
-  return shift >= a.element && shift + b.element <= a.stride;  // interleaved
-}
-
 /// Numbers that are not finite (damage that was in the file) have no say.
 std::pair<std::vector<double>, std::vector<double>> bounds(const std::vector<float>& values, std::size_t components) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -218,6 +192,17 @@ void describe(JsonText& accessor, const NewData& data, std::size_t view) {
 
 }  // namespace
 
+std::optional<ViewRange> view_range(const File& file, std::size_t view) {
+  const JsonText& json = file.item("bufferViews", view);
+  const auto buffer = json.get("buffer").index();
+  const auto length = json.get("byteLength").index();
+  if (!buffer || !length || *buffer >= file.buffers.size()) return std::nullopt;
+  const std::size_t begin = json.has("byteOffset") ? json.get("byteOffset").index().value_or(SIZE_MAX) : 0;
+  const std::size_t size = file.item("buffers", *buffer).get("byteLength").index().value_or(0);
+  if (begin > size || *length > size - begin) return std::nullopt;
+  return ViewRange{*buffer, begin, begin + *length};
+}
+
 Result<Layout> layout(const File& file, std::size_t accessor) {
   const JsonText& json = file.item("accessors", accessor);
   if (!json.is_object()) return refusal(accessor, "the file has no such accessor");
@@ -261,54 +246,6 @@ Result<std::vector<std::uint32_t>> read_indices(const File& file, std::size_t ac
   indices.reserve(values->size());
   for (const double value : *values) indices.push_back(static_cast<std::uint32_t>(value));
   return indices;
-}
-
-Storage::Storage(const File& file)
-    : view_accessors_(file.size("bufferViews")), references_(view_accessors_.size()), overlapped_(view_accessors_.size()) {
-  count_references(file.json);
-  for (std::size_t a = 0; a < file.size("accessors"); ++a) {
-    const auto where = layout(file, a);
-    layouts_.push_back(where.ok() ? std::optional(*where) : std::nullopt);
-    if (where.ok() && where->view) view_accessors_[*where->view].push_back(a);
-  }
-  std::vector<std::pair<ViewRange, std::size_t>> ranges;
-  for (std::size_t v = 0; v < view_accessors_.size(); ++v) {
-    if (const auto range = view_range(file, v)) ranges.emplace_back(*range, v);
-  }
-  std::sort(ranges.begin(), ranges.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.first.buffer, a.first.begin, a.second) < std::tie(b.first.buffer, b.first.begin, b.second);
-  });
-  // In order of their beginnings, a view overlaps an earlier one when it begins before the furthest end so far.
-  for (std::size_t i = 1, furthest = 0; i < ranges.size(); ++i) {
-    const ViewRange& last = ranges[furthest].first;
-    const ViewRange& next = ranges[i].first;
-    if (next.buffer == last.buffer && next.begin < last.end) {
-      overlapped_[ranges[i].second] = overlapped_[ranges[furthest].second] = true;
-    }
-    if (next.buffer != last.buffer || next.end > last.end) furthest = i;
-  }
-}
-
-void Storage::count_references(const JsonText& json) {
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const JsonText& value = json.value(i);
-    if (json.is_object() && json.key(i) == "bufferView") {
-      const auto view = value.index();
-      if (view && *view < references_.size()) ++references_[*view];
-    }
-    count_references(value);
-  }
-}
-
-bool Storage::can_patch_in_place(std::size_t accessor) const {
-  const auto& where = layouts_[accessor];
-  if (!where || !where->view || where->buffer != 0 || where->sparse || where->component_type != type_float) return false;
-  const std::size_t view = *where->view;
-  // Images, sparse parts and extensions may read the view in ways of their own.
-  if (overlapped_[view] || references_[view] != view_accessors_[view].size()) return false;
-  return std::all_of(view_accessors_[view].begin(), view_accessors_[view].end(), [&](std::size_t other) {
-    return other == accessor || disjoint(*where, *layouts_[other]);
-  });
 }
 
 void patch_element(File& file, const Layout& where, std::size_t i, const float* components) {

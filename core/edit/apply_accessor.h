@@ -29,6 +29,14 @@ struct Layout {
   std::size_t end() const { return count == 0 ? begin : begin + stride * (count - 1) + element; }
 };
 
+/// The byte range of a buffer view in its buffer.
+struct ViewRange {
+  std::size_t buffer = 0, begin = 0, end = 0;
+};
+
+/// None when the view is malformed or reaches beyond its buffer.
+std::optional<ViewRange> view_range(const File& file, std::size_t view);
+
 /// Error: no such accessor, a malformed field, a range outside of its buffer, a matrix type.
 Result<Layout> layout(const File& file, std::size_t accessor);
 
@@ -51,7 +59,7 @@ class Storage {
  private:
   void count_references(const JsonText& json);
 
-  std::vector<std::optional<Layout>> layouts_;          ///< of every accessor that has one
+  std::vector<std::optional<Layout>> layouts_;            ///< of every accessor that has one
   std::vector<std::vector<std::size_t>> view_accessors_;  ///< of every view
   std::vector<std::size_t> references_;
   std::vector<bool> overlapped_;  ///< by another view of its buffer

@@ -16,11 +16,11 @@
 namespace parsel::apply {
 
 struct CageMap {
-  Mat3 to_local = Mat3::Identity();     ///< A
-  Vec3 offset = Vec3::Zero();           ///< b
-  Corners corners = Corners::Zero();    ///< cₖ
-  std::vector<Corners> targets;         ///< for morph targets: displacements of the cₖ
-  bool moves = false;                   ///< whether the cₖ differ from the rest cage
+  Mat3 to_local = Mat3::Identity();   ///< A
+  Vec3 offset = Vec3::Zero();         ///< b
+  Corners corners = Corners::Zero();  ///< cₖ
+  std::vector<Corners> targets;       ///< for morph targets: displacements of the cₖ
+  bool moves = false;                 ///< whether the cₖ differ from the rest cage
 
   /// D(p) for the corners given: `corners`, or a sum of it and targets.
   Vec3 point(const Vec3& p, const Corners& c) const;

@@ -44,7 +44,8 @@ struct File {
 /// Error: not glTF, not version 2, truncated, not JSON, no object, buffer shorter than its byteLength.
 Result<File> read_file(std::string_view bytes, const ExternalFiles& external);
 
-/// Buffers given by name become data URIs, images given by name parts of the binary chunk, so that the file stands alone.
+/// Buffers given by name become data URIs, images given by name parts of the binary chunk, so that the file stands
+/// alone.
 void embed(File& file, const ExternalFiles& external);
 
 /// Buffer 0 becomes the binary chunk. Error: its bytes are missing, or the result has more than 4 GB.

@@ -78,7 +78,8 @@ std::string trimmed(const std::string& text) {
 
 }  // namespace
 
-JsonText::JsonText(const ordered_json& value) : raw_(value.dump(-1, ' ', false, ordered_json::error_handler_t::replace)) {}
+JsonText::JsonText(const ordered_json& value)
+    : raw_(value.dump(-1, ' ', false, ordered_json::error_handler_t::replace)) {}
 
 Result<JsonText> JsonText::parse(std::string_view text) {
   if (!ordered_json::accept(text.begin(), text.end())) {

@@ -14,9 +14,9 @@ namespace parsel::apply {
 
 /// One primitive of an edited node.
 struct Slot {
-  bool keep = true;         ///< false: this node shows it no more
-  bool is_part = false;     ///< false: nothing that the shape knows of (lines, points, a skinned mesh)
-  std::string part;         ///< the part's id, for messages
+  bool keep = true;      ///< false: this node shows it no more
+  bool is_part = false;  ///< false: nothing that the shape knows of (lines, points, a skinned mesh)
+  std::string part;      ///< the part's id, for messages
   Corners rest = Corners::Zero();
   Corners shown = Corners::Zero();  ///< in the edited model
   bool moves = false;               ///< whether its vertices are to be rewritten
@@ -38,7 +38,7 @@ struct NodeEdit {
 using PrimitiveKey = std::pair<std::size_t, std::size_t>;  ///< mesh, primitive
 
 struct MeshEdits {
-  std::map<PrimitiveKey, CageMap> maps;           ///< what moves or gets morph targets
+  std::map<PrimitiveKey, CageMap> maps;            ///< what moves or gets morph targets
   std::map<std::size_t, std::size_t> new_targets;  ///< mesh → how many morph targets each primitive gets
 };
 

@@ -257,8 +257,9 @@ class Planner {
         slot.samples.clear();
         continue;
       }
-      const bool possible = make_cage_map(shape_.frame, slot.rest, edit.rest_world, slot.shown,
-                                          scene_.world[edit.node], slot.moves).has_value();
+      const bool possible =
+          make_cage_map(shape_.frame, slot.rest, edit.rest_world, slot.shown, scene_.world[edit.node], slot.moves)
+              .has_value();
       if (possible && why == nullptr) continue;
       warnings_.push_back({"part " + slot.part, possible ? why : "left as it was: the transform of its node is flat"});
       slot.moves = slot.hidden = false;
@@ -292,7 +293,7 @@ class Planner {
   const ApplyOptions& options_;
   std::vector<Warning>& warnings_;
   PartData<std::optional<Membership>> members_;
-  std::set<PartIndex> selected_;  ///< of only_parts, members of virtual parts included
+  std::set<PartIndex> selected_;           ///< of only_parts, members of virtual parts included
   std::map<std::size_t, NodeEdit> edits_;  ///< by node
 };
 
@@ -322,7 +323,8 @@ void remove_nodes(File& file, gltf::Scene& scene, const std::vector<NodeEdit>& e
   for (std::size_t i = order.size(); i-- > 0;) {
     const std::size_t n = order[i];
     const std::vector<std::size_t>& children = scene.children[n];
-    const bool children_go = std::all_of(children.begin(), children.end(), [&](std::size_t c) { return going.count(c) > 0; });
+    const bool children_go =
+        std::all_of(children.begin(), children.end(), [&](std::size_t c) { return going.count(c) > 0; });
     if (emptied.count(n) > 0) {
       if (children_go) {
         going.insert(n);

@@ -20,9 +20,8 @@ Result<Applied> apply_program(std::string_view file, const Shape& shape, const P
   }
   const Evaluator evaluate(program, shape);
   if (animate) {
-    const auto layer = std::find_if(program.layers.begin(), program.layers.end(), [&](const Layer& l) {
-      return l.parameter.name == animate->parameter;
-    });
+    const auto layer = std::find_if(program.layers.begin(), program.layers.end(),
+                                    [&](const Layer& l) { return l.parameter.name == animate->parameter; });
     if (layer == program.layers.end()) {
       return Error{"edit/apply_program", animate->parameter, "the program has no such parameter",
                    "animate one that it has"};

@@ -17,10 +17,10 @@ inline constexpr double sweep_error = 0.002;
 /// One node's part in the animation.
 struct Track {
   std::size_t node = 0;
-  std::vector<gltf::Placement> placements;        ///< of every sample; empty without TRS tracks
-  std::vector<std::vector<double>> weights;       ///< of every sample, one a target; empty without morph targets
-  std::vector<bool> visible;                      ///< of every sample; empty when always there
-  std::vector<std::size_t> keys;                  ///< samples that become key frames
+  std::vector<gltf::Placement> placements;   ///< of every sample; empty without TRS tracks
+  std::vector<std::vector<double>> weights;  ///< of every sample, one a target; empty without morph targets
+  std::vector<bool> visible;                 ///< of every sample; empty when always there
+  std::vector<std::size_t> keys;             ///< samples that become key frames
 };
 
 /// Decides how each node moves, and gives slots the morph targets that they need. Nodes that stand still get no track;

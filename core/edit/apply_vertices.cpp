@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/edit/apply_accessor.h"
+#include "core/edit/apply_change.h"
 
 namespace parsel::apply {
 namespace {
@@ -13,10 +14,6 @@ namespace {
 using gltf::File;
 using gltf::JsonText;
 using nlohmann::ordered_json;
-using Vec4 = Eigen::Vector4d;
-
-enum class Role { untouched, position, normal, tangent, target_position, target_normal, target_tangent };
-
 Error refusal(std::string place, std::string cause) {
   return {"edit/apply_vertices", std::move(place), std::move(cause), "repair the file with a glTF tool"};
 }
@@ -25,89 +22,15 @@ std::string place_of(const PrimitiveKey& key) {
   return "mesh " + std::to_string(key.first) + ", primitive " + std::to_string(key.second);
 }
 
-/// What to do with the elements of an accessor. Other accessors that it takes are named by index.
-struct Change {
-  Role role = Role::untouched;
-  const CageMap* map = nullptr;
-  std::optional<std::size_t> position, base, target_position;  ///< base: the normal or tangent that a delta adds to
-
-  bool agrees(const Change& other) const {
-    if (role != other.role) return false;
-    if (role == Role::untouched) return true;
-    return position == other.position && base == other.base && target_position == other.target_position &&
-           (map == other.map || same_map(*map, *other.map));
-  }
-};
-
 /// One place in the file that names an accessor: `attribute` of a primitive, or of its morph target `target`.
 struct Use {
   Change change;
   PrimitiveKey primitive;
   std::optional<std::size_t> target;
   std::string attribute;
-  bool patchable = true;                ///< false: named from elsewhere (animations, skins, extensions)
+  bool patchable = true;               ///< false: named from elsewhere (animations, skins, extensions)
   std::optional<std::size_t> indices;  ///< accessor that selects the vertices; all of them without
 };
-
-/// The accessors as they came, decoded once.
-class Source {
- public:
-  explicit Source(const File& file) : file_(file) {}
-
-  Status load(std::size_t accessor) {
-    if (values_.count(accessor) > 0) return success();
-    const auto where = gltf::layout(file_, accessor);
-    if (!where) return where.error();
-    auto values = gltf::read_accessor(file_, accessor);
-    if (!values) return values.error();
-    values_[accessor] = {where->components, std::move(values).value()};
-    return success();
-  }
-  std::size_t components(std::size_t accessor) const { return values_.at(accessor).first; }
-  std::size_t count(std::size_t accessor) const { return values_.at(accessor).second.size() / components(accessor); }
-  /// Missing components are 0.
-  Vec4 element(std::size_t accessor, std::size_t i) const {
-    const auto& [n, values] = values_.at(accessor);
-    Vec4 out = Vec4::Zero();
-    for (std::size_t c = 0; c < n; ++c) out[static_cast<Eigen::Index>(c)] = values[i * n + c];
-    return out;
-  }
-  const std::vector<double>& all(std::size_t accessor) const { return values_.at(accessor).second; }
-
- private:
-  const File& file_;
-  std::map<std::size_t, std::pair<std::size_t, std::vector<double>>> values_;
-};
-
-Vec4 with_w(const Vec3& v, double w) {
-  return {v[0], v[1], v[2], w};
-}
-
-/// The element after the change.
-Vec4 changed(const Source& source, const Change& change, std::size_t accessor, std::size_t i) {
-  const Vec4 old = source.element(accessor, i);
-  const Vec3 value = old.head<3>();
-  if (change.role == Role::untouched) return old;
-  const CageMap& map = *change.map;
-  if (change.role == Role::position) return with_w(map.point(value, map.corners), 0);
-  const Vec3 p = source.element(*change.position, i).head<3>();
-  if (!p.allFinite()) return old;
-  if (change.role == Role::target_position) {
-    return with_w(map.point(p + value, map.corners) - map.point(p, map.corners), 0);
-  }
-  const Mat3 jacobian = map.jacobian(p, map.corners);
-  if (change.role == Role::normal) return with_w(transform_normal(jacobian, value), 0);
-  if (change.role == Role::tangent) {
-    return with_w(transform_tangent(jacobian, value), jacobian.determinant() < 0 ? -old[3] : old[3]);
-  }
-  const Vec3 q = change.target_position ? Vec3(p + source.element(*change.target_position, i).head<3>()) : p;
-  const Mat3 moved = map.jacobian(q, map.corners);
-  const Vec3 base = source.element(*change.base, i).head<3>();
-  if (change.role == Role::target_normal) {
-    return with_w(transform_normal(moved, base + value) - transform_normal(jacobian, base), 0);
-  }
-  return with_w(transform_tangent(moved, base + value) - transform_tangent(jacobian, base), 0);
-}
 
 class Writer {
  public:
@@ -190,7 +113,8 @@ class Writer {
       for (std::size_t p = 0; p < primitives.size(); ++p) {
         const PrimitiveKey key{m, p};
         if (map_of(key) != nullptr && primitive(key).get("extensions").has("KHR_draco_mesh_compression")) {
-          return Error{"edit/apply_vertices", place_of(key), "it is compressed with Draco", "decompress the file first"};
+          return Error{"edit/apply_vertices", place_of(key), "it is compressed with Draco",
+                       "decompress the file first"};
         }
         if (Status s = collect_attributes(key, std::nullopt); !s.ok()) return s;
         for (std::size_t t = 0; t < primitive(key).get("targets").size(); ++t) {

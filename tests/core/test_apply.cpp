@@ -46,7 +46,8 @@ struct OneBox {
                                        {"translation", {3, -1, 0.5}},
                                        {"rotation", {q[0], q[1], q[2], q[3]}},
                                        {"scale", {1, 2, 0.5}}});
-    part = add_part(shape, node, mapped(box(low, high), [&](const Vec3& p) { return shape.frame.to_normalised(world * p); }));
+    part = add_part(shape, node,
+                    mapped(box(low, high), [&](const Vec3& p) { return shape.frame.to_normalised(world * p); }));
   }
 
   /// The file after the part's corners went through an affine map of the normalised frame.
@@ -106,11 +107,21 @@ TEST_CASE("apply: no edit gives back the file, byte for byte") {
 TEST_CASE("apply: affine edits move positions, normals and tangents as they must") {
   const OneBox model;
   Eigen::Affine3d edit = Eigen::Affine3d::Identity();
-  SUBCASE("translate") { edit.translate(Vec3(0.1, -0.2, 0.05)); }
-  SUBCASE("rotate") { edit.translate(Vec3(0.3, 0, 0)).rotate(Eigen::AngleAxisd(0.8, Vec3(0, 1, 1).normalized())); }
-  SUBCASE("scale") { edit.scale(Vec3(1.4, 0.8, 1)); }
-  SUBCASE("shear") { edit.linear()(0, 1) = 0.6; }
-  SUBCASE("mirror") { edit.scale(Vec3(-1, 1, 1)); }
+  SUBCASE("translate") {
+    edit.translate(Vec3(0.1, -0.2, 0.05));
+  }
+  SUBCASE("rotate") {
+    edit.translate(Vec3(0.3, 0, 0)).rotate(Eigen::AngleAxisd(0.8, Vec3(0, 1, 1).normalized()));
+  }
+  SUBCASE("scale") {
+    edit.scale(Vec3(1.4, 0.8, 1));
+  }
+  SUBCASE("shear") {
+    edit.linear()(0, 1) = 0.6;
+  }
+  SUBCASE("mirror") {
+    edit.scale(Vec3(-1, 1, 1));
+  }
   check_affine(model, edit);
 }
 
@@ -120,7 +131,8 @@ TEST_CASE("apply: a face that moves bends the inside as the cage does") {
   const std::vector<Vec3> points = grid(Vec3(-1, -1, -1), Vec3(1, 1, 1), 4);
   std::vector<Vec3> normals(points.size(), Vec3(0, 1, 0));
   const std::size_t position = glb.vectors(points), normal = glb.vectors(normals, false);
-  const std::size_t node = glb.node({{"mesh", glb.mesh({{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}})}});
+  const std::size_t node =
+      glb.node({{"mesh", glb.mesh({{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}})}});
   add_part(shape, node, box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
   State state = resting(shape);
   for (int k = 0; k < 8; ++k) {
@@ -156,8 +168,7 @@ TEST_CASE("apply: every byte of the JSON that is not edited stays") {
   OneBox model;
   const std::string plain = model.glb.json.dump();
   std::string text = plain;
-  text.replace(text.find("\"byteLength\":0}]"), 16,
-               "\"byteLength\":" + std::to_string(model.glb.binary.size()) + "}]");
+  text.replace(text.find("\"byteLength\":0}]"), 16, "\"byteLength\":" + std::to_string(model.glb.binary.size()) + "}]");
   text.replace(text.find("\"asset\":{"), 9,
                "\"extras\" : { \"n\":[1.0e-3, 0.10,12345678901234567890], \"\\u0061\":\"\\u00e9\" },\n \"asset\":{");
   text.insert(text.size() - 1, ",\"extensions\":{\"ACME_unknown\" :{ \"accessors\":[ 0 ]}}");

@@ -29,8 +29,8 @@ struct Everything {
     const std::size_t sparse = glb.json["accessors"].size();
     const ordered_json where{{"bufferView", glb.view(std::vector<std::uint16_t>{1, 7})}, {"componentType", 5123}};
     const std::size_t with = glb.view(std::vector<float>{1, 2, 3, 4, 5, 6});
-    glb.json["accessors"].push_back({{"componentType", 5126}, {"count", 8}, {"type", "VEC3"}, {"min", {0, 0, 0}},
-                                     {"max", {4, 5, 6}}});
+    glb.json["accessors"].push_back(
+        {{"componentType", 5126}, {"count", 8}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {4, 5, 6}}});
     glb.json["accessors"][sparse]["sparse"] = {{"count", 2}, {"indices", where}, {"values", {{"bufferView", with}}}};
     const ordered_json primitive{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}},
                                  {"indices", indices},
@@ -95,14 +95,22 @@ TEST_CASE("apply: hierarchies that are none are refused") {
     glb.json["nodes"][0]["children"] = {1};
     glb.json["nodes"][1]["children"] = {0};
   }
-  SUBCASE("its own child") { glb.json["nodes"][0]["children"] = {0}; }
+  SUBCASE("its own child") {
+    glb.json["nodes"][0]["children"] = {0};
+  }
   SUBCASE("two parents") {
     glb.json["nodes"].push_back({{"children", {0}}});
     glb.json["nodes"].push_back({{"children", {0}}});
   }
-  SUBCASE("a child that is not there") { glb.json["nodes"][0]["children"] = {77}; }
-  SUBCASE("a root that is not there") { glb.json["scenes"][0]["nodes"] = {77}; }
-  SUBCASE("a part of another file") { glb.json["nodes"].erase(1); }
+  SUBCASE("a child that is not there") {
+    glb.json["nodes"][0]["children"] = {77};
+  }
+  SUBCASE("a root that is not there") {
+    glb.json["scenes"][0]["nodes"] = {77};
+  }
+  SUBCASE("a part of another file") {
+    glb.json["nodes"].erase(1);
+  }
   CHECK_FALSE(apply_state(glb.bytes(), model.shape, model.state).ok());
 }
 

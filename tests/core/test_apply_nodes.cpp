@@ -24,21 +24,27 @@ struct Slats {
     parent.translate(Vec3(1, 2, 3)).rotate(Eigen::AngleAxisd(pi / 2, Vec3::UnitY())).scale(2);
     const std::size_t mesh = glb.mesh({{"attributes", {{"POSITION", glb.vectors(points)}}}});
     const double h = std::sqrt(0.5);
-    glb.node({{"name", "frame"}, {"translation", {1, 2, 3}}, {"rotation", {0, h, 0, h}}, {"scale", {2, 2, 2}},
+    glb.node({{"name", "frame"},
+              {"translation", {1, 2, 3}},
+              {"rotation", {0, h, 0, h}},
+              {"scale", {2, 2, 2}},
               {"children", {1, 2, 3, 4}}});
     for (int i = 0; i < 3; ++i) {
       const std::size_t own = shared_mesh ? mesh : glb.mesh(glb.json["meshes"][mesh]["primitives"][0]);
-      glb.json["nodes"].push_back({{"name", "slat"}, {"mesh", own}, {"translation", {0, 0, i}}, {"extras", {{"k", i}}}});
+      glb.json["nodes"].push_back(
+          {{"name", "slat"}, {"mesh", own}, {"translation", {0, 0, i}}, {"extras", {{"k", i}}}});
       add_part(shape, static_cast<std::size_t>(i) + 1, slat(i));
     }
-    glb.json["nodes"].push_back({{"name", "rail"}, {"mesh", glb.mesh({{"attributes", {{"POSITION", glb.vectors(points)}}}})}});
+    glb.json["nodes"].push_back(
+        {{"name", "rail"}, {"mesh", glb.mesh({{"attributes", {{"POSITION", glb.vectors(points)}}}})}});
     add_part(shape, 4, slat(0));
     shape.relations.push_back(
         {"t1", RelationKind::translation, {PartIndex(0), PartIndex(1), PartIndex(2)}, Translation{}});
   }
 
   Corners slat(double at, double taller = 1) const {
-    return mapped(box(low.cwiseProduct(Vec3(1, taller, 1)) + Vec3(0, 0, at), high.cwiseProduct(Vec3(1, taller, 1)) + Vec3(0, 0, at)),
+    return mapped(box(low.cwiseProduct(Vec3(1, taller, 1)) + Vec3(0, 0, at),
+                      high.cwiseProduct(Vec3(1, taller, 1)) + Vec3(0, 0, at)),
                   [&](const Vec3& p) { return parent * p; });
   }
 
@@ -122,7 +128,9 @@ TEST_CASE("apply: turned instances are turned nodes") {
     const Eigen::Affine3d at = turned(2 * pi / 3 * i);
     const Eigen::Vector4d q = Eigen::Quaterniond(at.linear()).coeffs();
     const Vec3 t = at.translation();
-    glb.node({{"name", "leg_" + std::to_string(i + 1)}, {"mesh", mesh}, {"translation", {t[0], t[1], t[2]}},
+    glb.node({{"name", "leg_" + std::to_string(i + 1)},
+              {"mesh", mesh},
+              {"translation", {t[0], t[1], t[2]}},
               {"rotation", {q[0], q[1], q[2], q[3]}}});
     add_part(shape, static_cast<std::size_t>(i), mapped(box(low, high), [&](const Vec3& p) { return at * p; }));
   }
@@ -194,7 +202,8 @@ TEST_CASE("apply: one primitive of a node is taken out without the others") {
   Shape shape;
   const std::vector<Vec3> points = grid(low, high);
   const std::size_t a = glb.vectors(points), b = glb.vectors(points);
-  glb.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", a}}}}, {{"attributes", {{"POSITION", b}}}}}}});
+  glb.json["meshes"].push_back(
+      {{"primitives", {{{"attributes", {{"POSITION", a}}}}, {{"attributes", {{"POSITION", b}}}}}}});
   glb.node({{"mesh", 0}});
   glb.node({{"mesh", 0}});
   for (std::size_t node = 0; node < 2; ++node) {
@@ -233,8 +242,9 @@ TEST_CASE("apply: what cannot show an edit is left as it was, with a warning") {
   SUBCASE("an animated node is edited all the same") {
     const std::size_t times = model.glb.json["accessors"].size();
     model.glb.json["accessors"].push_back({{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}});
-    model.glb.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
-                                     {"samplers", {{{"input", times}, {"output", times}}}}}};
+    model.glb.json["animations"] = {
+        {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+         {"samplers", {{{"input", times}, {"output", times}}}}}};
     expected = "node 1";
   }
   State state = resting(model.shape);

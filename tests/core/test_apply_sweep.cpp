@@ -20,7 +20,8 @@ class Player {
 
   double duration() const {
     double last = 0;
-    for (const auto& sampler : json_["animations"][0]["samplers"]) last = std::max(last, numbers(sampler["input"]).back());
+    for (const auto& sampler : json_["animations"][0]["samplers"])
+      last = std::max(last, numbers(sampler["input"]).back());
     return last;
   }
 

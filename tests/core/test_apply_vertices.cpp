@@ -142,7 +142,12 @@ TEST_CASE("apply: interleaved data is patched in place and its neighbours are le
   const std::size_t view = glb.view(data);
   glb.json["bufferViews"][view]["byteStride"] = 24;
   glb.json["accessors"] = {
-      {{"bufferView", view}, {"componentType", 5126}, {"count", 8}, {"type", "VEC3"}, {"min", {-1, -1, -1}}, {"max", {1, 1, 1}}},
+      {{"bufferView", view},
+       {"componentType", 5126},
+       {"count", 8},
+       {"type", "VEC3"},
+       {"min", {-1, -1, -1}},
+       {"max", {1, 1, 1}}},
       {{"bufferView", view}, {"byteOffset", 12}, {"componentType", 5126}, {"count", 8}, {"type", "VEC3"}}};
   glb.node({{"mesh", glb.mesh({{"attributes", {{"POSITION", 0}, {"_OWN", 1}}}})}});
   add_part(shape, 0, box(low, high));
@@ -170,11 +175,12 @@ TEST_CASE("apply: sparse and implicit data becomes plain") {
     for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(points[i][c]));
   }
   std::vector<Vec3> rest = points;
-  ordered_json accessor{{"componentType", 5126}, {"count", 8}, {"type", "VEC3"}, {"min", {-1, -1, -1}}, {"max", {1, 1, 1}},
-                        {"name", "kept"}};
-  accessor["sparse"] = {{"count", 4},
-                        {"indices", {{"bufferView", glb.view(std::vector<std::uint16_t>{4, 5, 6, 7})}, {"componentType", 5123}}},
-                        {"values", {{"bufferView", glb.view(values)}}}};
+  ordered_json accessor{{"componentType", 5126}, {"count", 8},       {"type", "VEC3"},
+                        {"min", {-1, -1, -1}},   {"max", {1, 1, 1}}, {"name", "kept"}};
+  accessor["sparse"] = {
+      {"count", 4},
+      {"indices", {{"bufferView", glb.view(std::vector<std::uint16_t>{4, 5, 6, 7})}, {"componentType", 5123}}},
+      {"values", {{"bufferView", glb.view(values)}}}};
   for (std::size_t i = 0; i < 4; ++i) rest[i] = Vec3::Zero();
   glb.json["accessors"].push_back(accessor);
   glb.node({{"mesh", glb.mesh({{"attributes", {{"POSITION", 0}}}})}});
@@ -197,8 +203,13 @@ TEST_CASE("apply: quantised positions become floats in the same accessor") {
   }
   const std::size_t view = glb.view(shorts);
   glb.json["bufferViews"][view]["byteStride"] = 8;
-  glb.json["accessors"].push_back({{"bufferView", view}, {"componentType", 5122}, {"normalized", true}, {"count", 8},
-                                   {"type", "VEC3"}, {"min", {-32767, -32767, -32767}}, {"max", {32767, 32767, 32767}}});
+  glb.json["accessors"].push_back({{"bufferView", view},
+                                   {"componentType", 5122},
+                                   {"normalized", true},
+                                   {"count", 8},
+                                   {"type", "VEC3"},
+                                   {"min", {-32767, -32767, -32767}},
+                                   {"max", {32767, 32767, 32767}}});
   glb.json["extensionsUsed"] = glb.json["extensionsRequired"] = {"KHR_mesh_quantization"};
   glb.node({{"mesh", glb.mesh({{"attributes", {{"POSITION", 0}}}})}, {"scale", {2, 2, 2}}});
   add_part(shape, 0, box(2 * low, 2 * high));
