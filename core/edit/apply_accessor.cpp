@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian and read as they are");
 
 /// More elements than any model has, so that a count alone cannot ask for all memory.
-constexpr std::size_t max_count = std::size_t{1} << 26;
+constexpr std::size_t max_count = std::size_t{1} << 24;
 
 Error refusal(std::size_t accessor, std::string cause) {
   return {"edit/apply_accessor", "accessor " + std::to_string(accessor), std::move(cause),
@@ -93,11 +93,17 @@ Result<Layout> layout_in_view(const File& file, std::size_t accessor, const Json
     where.stride = file.item("bufferViews", *view).get("byteStride").index().value_or(0);
     if (where.stride < where.element || where.stride > 252) return refusal(accessor, "its byteStride is out of range");
   }
-  if (where.count > 0 && (where.end() > range->end)) return refusal(accessor, "it reaches beyond its buffer view");
+  if (where.count > 0) {
+    // Divided, not multiplied: sizes fit 32 bits, their products need not.
+    const std::size_t available = range->end - where.begin;
+    if (available < where.element || (available - where.element) / where.stride < where.count - 1) {
+      return refusal(accessor, "it reaches beyond its buffer view");
+    }
+  }
   return where;
 }
 
-/// Reads the elements of a checked layout into values; `of` says whose fault a missing buffer is.
+/// Reads the elements of a checked layout into values.
 Status read_elements(const File& file, std::size_t accessor, const Layout& where, std::vector<double>& values) {
   if (!file.buffers[where.buffer]) {
     return Error{"edit/apply_accessor", "buffer " + std::to_string(where.buffer),

@@ -204,7 +204,9 @@ std::optional<double> JsonText::number() const {
 
 std::optional<std::size_t> JsonText::index() const {
   const auto value = number();
-  if (!value || *value < 0 || *value > 0x1p53 || *value != std::floor(*value)) return std::nullopt;
+  // Exact in a double, and in size_t where that has 32 bits.
+  constexpr double limit = sizeof(std::size_t) >= 8 ? 0x1p53 : 0xFFFFFFFFp0;
+  if (!value || *value < 0 || *value > limit || *value != std::floor(*value)) return std::nullopt;
   return static_cast<std::size_t>(*value);
 }
 

@@ -47,7 +47,7 @@ class JsonText {
   JsonText* find_item(std::size_t i);
 
   std::optional<double> number() const;
-  /// A whole number from 0 to 2^53 (an index, a count, an offset).
+  /// A whole number from 0 to 2^53, or to 2^32 - 1 on 32-bit machines (an index, a count, an offset).
   std::optional<std::size_t> index() const;
   std::optional<bool> boolean() const;
   /// Unescaped.

@@ -1,9 +1,10 @@
 #include "core/edit/apply_vertices.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/edit/apply_accessor.h"
 #include "core/edit/apply_change.h"
@@ -14,6 +15,7 @@ namespace {
 using gltf::File;
 using gltf::JsonText;
 using nlohmann::ordered_json;
+
 Error refusal(std::string place, std::string cause) {
   return {"edit/apply_vertices", std::move(place), std::move(cause), "repair the file with a glTF tool"};
 }
@@ -28,7 +30,6 @@ struct Use {
   PrimitiveKey primitive;
   std::optional<std::size_t> target;
   std::string attribute;
-  bool patchable = true;               ///< false: named from elsewhere (animations, skins, extensions)
   std::optional<std::size_t> indices;  ///< accessor that selects the vertices; all of them without
 };
 
@@ -88,7 +89,7 @@ class Writer {
       const std::string name = attributes.key(i);
       const auto accessor = attributes.value(i).index();
       if (!accessor) continue;
-      Use use{{}, key, target, name, true, json.get("indices").index()};
+      Use use{{}, key, target, name, json.get("indices").index()};
       use.change = {Role::untouched, map, base.get("POSITION").index(), std::nullopt, std::nullopt};
       if (moves && !target) {
         if (name == "POSITION") use.change.role = Role::position;
@@ -124,7 +125,7 @@ class Writer {
     }
     // Whoever else names an accessor needs it as it is.
     const auto foreign = [&](const JsonText& json) {
-      if (const auto accessor = json.index()) uses_[*accessor].push_back({{}, {}, {}, {}, false, {}});
+      if (const auto accessor = json.index()) uses_[*accessor].push_back(Use{});
     };
     for (std::size_t i = 0; i < file_.size("animations"); ++i) {
       const JsonText& samplers = file_.item("animations", i).get("samplers");

@@ -16,7 +16,7 @@ namespace {
 /// Plays the animation of a file as glTF says: linear interpolation, spherical for rotations, or steps.
 class Player {
  public:
-  explicit Player(const std::string& glb) : file_(read(glb)), glb_(glb), json_(json_of(glb)) {}
+  explicit Player(const std::string& glb) : file_(read(glb)), json_(json_of(glb)) {}
 
   double duration() const {
     double last = 0;
@@ -81,7 +81,6 @@ class Player {
   }
 
   gltf::File file_;
-  std::string glb_;
   ordered_json json_;
 };
 
