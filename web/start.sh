@@ -28,7 +28,7 @@ say "Building the core for WebAssembly"
 build_wasm
 say "Building the page"
 (cd "$root/web" && npm run --silent build -- --logLevel warn) || die "Building the page failed; the lines above say why."
-node "$root/web/lint/sizes.mjs"
+node "$root/web/tools/sizes.mjs"
 echo "The page is in web/dist: a static site for any server and any path."
 $build_only && exit
 

@@ -3,6 +3,7 @@ import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
   root: '..',
+  cacheDir: 'web/node_modules/.vite',
   resolve: { alias: { 'parsel-module': fileURLToPath(new URL('../build/wasm/wasm', import.meta.url)) } },
   test: { include: ['tests/web/**/*.test.ts'], environment: 'node' },
 });

@@ -2,6 +2,7 @@ import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
   root: '..',
+  cacheDir: 'web/node_modules/.vite',
   test: {
     include: ['tests/e2e/**/*.test.ts'],
     environment: 'node',

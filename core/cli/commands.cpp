@@ -3,8 +3,10 @@
 
 namespace parsel::cli {
 
+extern const Command inspect_command;
+
 std::span<const Command> commands() {
-  static const std::vector<Command> all = {};
+  static const std::vector<Command> all = {inspect_command};
   return all;
 }
 

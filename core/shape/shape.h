@@ -52,7 +52,8 @@ struct Translation {
   int direction;     ///< 1 when delta points along +axis, else -1
 };
 
-/// parts = the instances in order of angle, a closed loop: instance k is instance 0 turned by k · 2π/count.
+/// parts = the instances in order of angle, a closed loop: instance k is instance 0 turned by k · 2π/count about the
+/// axis (right-handed), corner by corner, so their local axes turn with them.
 struct Rotation {
   PartIndex parent;  ///< the virtual part
   Vec3 centre;       ///< on the axis, at the height of the instances' centres
@@ -97,6 +98,18 @@ struct Shape {
   std::optional<PartIndex> find_part(std::string_view id) const;
   std::optional<RelationIndex> find_relation(std::string_view id) const;
 };
+
+// A shape holds the relations of the instances of a group and those of its virtual parent side by side; which of them
+// count depends on whether the group stands or was dissolved (supplement §3.1.2: an edit of one instance dissolves it).
+//   * A part is active unless it is an instance of a standing group or the parent of a dissolved one.
+//   * A translation or rotation is active while its group stands; it then ties its instances to its parent.
+//   * Any other relation is active when both its parts are.
+// `dissolved` lists translations and rotations; an empty list means that every group stands.
+
+bool is_active(const Shape& shape, PartIndex part, const std::vector<RelationIndex>& dissolved = {});
+bool is_active(const Shape& shape, RelationIndex relation, const std::vector<RelationIndex>& dissolved = {});
+std::vector<PartIndex> active_parts(const Shape& shape, const std::vector<RelationIndex>& dissolved = {});
+std::vector<RelationIndex> active_relations(const Shape& shape, const std::vector<RelationIndex>& dissolved = {});
 
 std::string_view to_string(RelationKind kind);
 std::optional<RelationKind> relation_kind(std::string_view text);

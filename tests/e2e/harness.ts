@@ -84,7 +84,7 @@ export async function openPage(
   });
   await page.exposeFunction('reportViolation', (text: string) => complaints.push(`policy violation: ${text}`));
   await page.addInitScript(() => {
-    addEventListener('securitypolicyviolation', (event) => {
+    document.addEventListener('securitypolicyviolation', (event) => {
       const report = (window as unknown as { reportViolation(text: string): void }).reportViolation;
       report(`${event.violatedDirective} blocked ${event.blockedURI}`);
     });

@@ -1,0 +1,34 @@
+#include "core/cli/model.h"
+
+#include <filesystem>
+
+#include "core/cli/command.h"
+#include "core/shape/gltf_document.h"
+
+namespace parsel::cli {
+
+Result<Model> load_model(const std::string& path) {
+  Result<std::string> bytes = read_file(path);
+  if (!bytes.ok()) return bytes.error();
+  Model model;
+  model.bytes = std::move(*bytes);
+
+  const std::filesystem::path file(path);
+  for (const std::string& uri : external_buffer_uris(model.bytes)) {
+    const std::filesystem::path relative = std::filesystem::path(uri).lexically_normal();
+    // A model must not be able to make us read other files of this machine.
+    if (relative.is_absolute() || relative.empty() || *relative.begin() == "..") continue;
+    Result<std::string> buffer = read_file((file.parent_path() / relative).string());
+    if (buffer.ok()) model.buffers[uri] = std::move(*buffer);
+  }
+  Result<Abstraction> abstraction = abstract_shape(model.bytes, file.stem().string(), model.buffers);
+  if (!abstraction.ok()) {
+    Error error = abstraction.error();
+    error.place = path + (error.place.empty() ? "" : ", " + error.place);
+    return error;
+  }
+  model.abstraction = std::move(*abstraction);
+  return model;
+}
+
+}  // namespace parsel::cli

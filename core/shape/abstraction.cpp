@@ -1,0 +1,219 @@
+#include "core/shape/abstraction.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/base/sha256.h"
+#include "core/shape/attachment.h"
+#include "core/shape/gltf_import.h"
+#include "core/shape/group.h"
+#include "core/shape/label.h"
+#include "core/shape/oriented_box.h"
+#include "core/shape/symmetry.h"
+
+namespace parsel {
+namespace {
+
+/// Builds the graph from meshes, aligned boxes and symmetries.
+class Builder {
+ public:
+  Builder(Shape& shape, const PartData<PartMesh>& meshes, Symmetries symmetries)
+      : shape_(shape), meshes_(meshes), symmetries_(std::move(symmetries)) {}
+
+  void run(const PartData<Hexahedron>& boxes) {
+    add_parts(boxes);
+    add_reflections();
+    add_groups();
+    add_attachments();
+  }
+
+ private:
+  void add_parts(const PartData<Hexahedron>& boxes) {
+    for (const PartIndex p : meshes_.indices()) {
+      Part part;
+      part.label = meshes_[p].label;
+      part.node = meshes_[p].node;
+      part.primitive = meshes_[p].primitive;
+      part.hexahedron = boxes[p];
+      shape_.parts.push_back(std::move(part));
+    }
+    for (const SymmetryGroup& group : symmetries_.groups) {
+      Part parent;
+      // Instances of one group may carry directions in their labels: then what they share names the group.
+      parent.label = meshes_[group.parts.front()].label;
+      const bool one_label = std::all_of(group.parts.begin(), group.parts.end(),
+                                         [&](PartIndex p) { return meshes_[p].label == parent.label; });
+      if (!one_label) parent.label = grouping_key(parent.label);
+      parent.label += " group";
+      parent.members = group.parts;
+      parent.hexahedron = group_box(group, boxes);
+      parents_.push_back(shape_.parts.push_back(std::move(parent)));
+    }
+    align_parents();
+
+    std::vector<std::string> labels;
+    std::vector<Vec3> centres;
+    for (const Part& part : shape_.parts) {
+      labels.push_back(part.label);
+      centres.push_back(part.hexahedron.point(Vec3::Zero()));
+    }
+    const std::vector<PartName> names = name_parts(labels, centres);
+    for (const PartIndex p : shape_.parts.indices()) {
+      shape_.parts[p].id = names[p.value()].id;
+      shape_.parts[p].name = names[p.value()].name;
+    }
+  }
+
+  /// Parents of mirrored groups become exact images, like their instances.
+  void align_parents() {
+    const auto& groups = symmetries_.groups;
+    std::vector<bool> placed(groups.size(), false);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      placed[g] = true;
+      for (std::size_t h = g + 1; h < groups.size(); ++h) {
+        const auto plane = mirrors_between(groups[g], groups[h], symmetries_.mirrors);
+        if (!plane) continue;
+        parent_mirrors_.push_back({parents_[g], parents_[h], plane->axis, plane->offset});
+        if (placed[h]) continue;
+        placed[h] = true;
+        shape_.parts[parents_[h]].hexahedron =
+            mirrored(shape_.parts[parents_[g]].hexahedron, plane->axis, plane->offset);
+      }
+    }
+  }
+
+  RelationIndex add(char letter, RelationKind kind, std::vector<PartIndex> parts,
+                    std::variant<Reflection, Translation, Rotation, Attachment> detail) {
+    const std::string id = letter + std::to_string(++count_[letter]);
+    return shape_.relations.push_back({id, kind, std::move(parts), std::move(detail)});
+  }
+
+  void add_reflections() {
+    std::vector<MirrorPair> all = symmetries_.mirrors;
+    all.insert(all.end(), parent_mirrors_.begin(), parent_mirrors_.end());
+    std::stable_sort(all.begin(), all.end(), [](const MirrorPair& m, const MirrorPair& n) {
+      return std::pair(m.a, m.b) < std::pair(n.a, n.b);
+    });
+    for (const MirrorPair& m : all) {
+      Reflection reflection;
+      reflection.normal = Vec3::Unit(m.axis);
+      reflection.origin = m.offset * reflection.normal;
+      // Boxes tied along several ways (four legs: two planes) agree up to rounding; what does not agree is no relation.
+      const Corners& to = shape_.parts[m.b].hexahedron.corners;
+      const Corners image = mirrored(shape_.parts[m.a].hexahedron, m.axis, m.offset).corners;
+      if ((image - to).cwiseAbs().maxCoeff() > 1e-6) continue;
+      for (int k = 0; k < 8; ++k) reflection.corner_map[static_cast<std::size_t>(k)] = k ^ (1 << m.axis);
+      add('r', RelationKind::reflection, {m.a, m.b}, reflection);
+    }
+  }
+
+  void add_groups() {
+    for (std::size_t g = 0; g < symmetries_.groups.size(); ++g) {
+      const SymmetryGroup& group = symmetries_.groups[g];
+      const PartIndex parent = parents_[g];
+      const Hexahedron& box = shape_.parts[parent].hexahedron;
+      const auto centre = [&](PartIndex p) { return shape_.parts[p].hexahedron.point(Vec3::Zero()); };
+      RelationIndex relation;
+      if (group.kind == SymmetryGroup::Kind::translation) {
+        Translation t{parent, centre(group.parts.front()), centre(group.parts.back()), 0, 1};
+        const Vec3 along = box.axes * (t.end - t.start);
+        along.cwiseAbs().maxCoeff(&t.axis);
+        t.direction = along[t.axis] > 0 ? 1 : -1;
+        relation = add('t', RelationKind::translation, group.parts, t);
+      } else {
+        Rotation r{parent, group.centre, group.axis, 0, 0};
+        const Vec3 first = centre(group.parts.front()) - group.centre;
+        r.centre += group.axis.dot(first) * group.axis;
+        r.radius = (first - group.axis.dot(first) * group.axis).norm();
+        (box.axes * group.axis).cwiseAbs().maxCoeff(&r.parent_axis);
+        relation = add('o', RelationKind::rotation, group.parts, r);
+      }
+      shape_.parts[parent].group = relation;
+      for (const PartIndex p : group.parts) shape_.parts[p].group = relation;
+    }
+  }
+
+  /// Between real parts first; a virtual part then inherits the regions of its instances.
+  void add_attachments() {
+    std::map<std::pair<PartIndex, PartIndex>, ContactRegion> regions;
+    const auto at = [](PartIndex a, PartIndex b) { return std::pair(std::min(a, b), std::max(a, b)); };
+    const std::size_t real = meshes_.size();
+    for (std::size_t i = 0; i < real; ++i) {
+      for (std::size_t k = i + 1; k < real; ++k) {
+        const PartIndex a(i), b(k);
+        const Hexahedron &ha = shape_.parts[a].hexahedron, &hb = shape_.parts[b].hexahedron;
+        ContactRegion region = contact_region(meshes_[a], ha, meshes_[b], hb);
+        // A part inside another's box is attached even when their surfaces do not come near each other.
+        if (!region.empty() || contains(ha, hb) || contains(hb, ha)) regions.emplace(at(a, b), std::move(region));
+      }
+    }
+    const auto nodes = [&](PartIndex p) {
+      std::vector<PartIndex> out = {p};
+      if (const auto parent = parent_of(p)) out.push_back(*parent);
+      return out;
+    };
+    std::map<std::pair<PartIndex, PartIndex>, ContactRegion> inherited;
+    for (const auto& [pair, region] : regions) {
+      for (const PartIndex a : nodes(pair.first)) {
+        for (const PartIndex b : nodes(pair.second)) {
+          const bool own = a == pair.first && b == pair.second;
+          // Instances of one group need no attachment to their own parent: the group relation ties them.
+          if (!own && a != b && parent_of(pair.first) != parent_of(pair.second)) inherited[at(a, b)].add(region);
+        }
+      }
+    }
+    regions.merge(inherited);
+    for (const auto& [pair, region] : regions) {
+      const auto [a, b] = pair;
+      const Hexahedron &ha = shape_.parts[a].hexahedron, &hb = shape_.parts[b].hexahedron;
+      // A group's box is mostly empty: what stands inside it is not contained in it.
+      const bool a_in_b = contains(hb, ha) && !shape_.parts[b].is_virtual();
+      const bool b_in_a = contains(ha, hb) && !shape_.parts[a].is_virtual();
+      if (region.empty() && !a_in_b && !b_in_a) continue;
+      FoundAttachment found = attach(ha, hb, region, a_in_b, b_in_a);
+      add('a', attachment_kind(found.order), {a, b}, std::move(found.attachment));
+    }
+  }
+
+  std::optional<PartIndex> parent_of(PartIndex p) const {
+    for (std::size_t g = 0; g < parents_.size(); ++g) {
+      const auto& parts = symmetries_.groups[g].parts;
+      if (std::find(parts.begin(), parts.end(), p) != parts.end()) return parents_[g];
+    }
+    return std::nullopt;
+  }
+
+  Shape& shape_;
+  const PartData<PartMesh>& meshes_;
+  Symmetries symmetries_;
+  std::vector<PartIndex> parents_;  ///< one a group
+  std::vector<MirrorPair> parent_mirrors_;
+  std::map<char, int> count_;
+};
+
+}  // namespace
+
+Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name, const ExternalBuffers& buffers) {
+  Result<ImportedModel> imported = import_gltf(bytes, buffers);
+  if (!imported.ok()) return imported.error();
+  Abstraction result;
+  result.shape.name = printable(name, 128);
+  result.shape.sha256 = sha256_hex(bytes);
+  result.shape.frame = imported->frame;
+  result.shape.warnings = std::move(imported->warnings);
+  result.meshes = std::move(imported->meshes);
+
+  PartData<Hexahedron> boxes;
+  PartData<std::string> keys;
+  for (const PartMesh& mesh : result.meshes) {
+    boxes.push_back(oriented_box(mesh));
+    keys.push_back(grouping_key(mesh.label));
+  }
+  Symmetries symmetries = find_symmetries(result.meshes, boxes, keys);
+  const PartData<Hexahedron> aligned = align_boxes(boxes, symmetries);
+  Builder(result.shape, result.meshes, std::move(symmetries)).run(aligned);
+  return result;
+}
+
+}  // namespace parsel

@@ -1,0 +1,224 @@
+#include "core/shape/attachment.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/result.h"
+
+namespace parsel {
+namespace {
+
+/// A box by centre, axes and half extents, which is what clipping needs.
+struct Box {
+  explicit Box(const Hexahedron& h)
+      : centre(h.corners.colwise().mean().transpose()), axes(h.axes), half(h.half_extents()) {}
+  Vec3 to_local(const Vec3& p) const { return axes * (p - centre); }
+  Vec3 to_world(const Vec3& q) const { return centre + axes.transpose() * q; }
+  /// Half extents of the axis-aligned box around it, inflated.
+  Vec3 reach(double inflation) const { return axes.transpose().cwiseAbs() * (half.array() + inflation).matrix(); }
+  Vec3 centre;
+  Mat3 axes;
+  Vec3 half;
+};
+
+/// A convex polygon: a triangle gains at most one corner at each of six planes.
+struct Polygon {
+  std::array<Vec3, 9> corners;
+  std::size_t size = 0;
+};
+
+/// Keeps the part of the polygon with sign · coordinate[axis] ≤ limit (Sutherland, Hodgman 1974).
+void clip(Polygon& polygon, int axis, double sign, double limit) {
+  Polygon out;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const Vec3 &a = polygon.corners[i], &b = polygon.corners[(i + 1) % polygon.size];
+    const double da = limit - sign * a[axis], db = limit - sign * b[axis];
+    if (da >= 0) out.corners[out.size++] = a;
+    if ((da >= 0) != (db >= 0) && out.size < out.corners.size()) out.corners[out.size++] = a + da / (da - db) * (b - a);
+  }
+  polygon = out;
+}
+
+/// Adds what of the mesh lies in the inflated box, put onto the box itself.
+void clip_surface(const PartMesh& mesh, const Box& box, ContactRegion& region) {
+  const Vec3 reach = box.reach(contact_distance);
+  const Vec3 low = box.centre - reach, high = box.centre + reach;
+  const Vec3 limit = (box.half.array() + contact_distance).matrix();
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &p0 = mesh.positions[t[0]], &p1 = mesh.positions[t[1]], &p2 = mesh.positions[t[2]];
+    if ((p0.cwiseMin(p1).cwiseMin(p2).array() > high.array()).any()) continue;
+    if ((p0.cwiseMax(p1).cwiseMax(p2).array() < low.array()).any()) continue;
+    Polygon polygon;
+    polygon.corners[0] = box.to_local(p0);
+    polygon.corners[1] = box.to_local(p1);
+    polygon.corners[2] = box.to_local(p2);
+    polygon.size = 3;
+    for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) {
+      clip(polygon, axis, 1, limit[axis]);
+      clip(polygon, axis, -1, limit[axis]);
+    }
+    if (polygon.size == 0) continue;
+    for (std::size_t i = 0; i < polygon.size; ++i) {
+      polygon.corners[i] = box.to_world(polygon.corners[i].cwiseMin(box.half).cwiseMax(-box.half));
+      region.vertices.push_back(polygon.corners[i]);
+    }
+    for (std::size_t i = 1; i + 1 < polygon.size; ++i) {
+      const Vec3 &a = polygon.corners[0], &b = polygon.corners[i], &c = polygon.corners[i + 1];
+      const double area = (b - a).cross(c - a).norm() / 2;
+      region.area += area;
+      region.moment += area * (a + b + c) / 3;
+    }
+  }
+}
+
+struct Interval {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double middle() const { return (low + high) / 2; }
+  double half() const { return (high - low) / 2; }
+};
+
+/// The region along each axis of a box, relative to its centre.
+std::array<Interval, 3> extents(const ContactRegion& region, const Box& box) {
+  std::array<Interval, 3> out;
+  for (const Vec3& v : region.vertices) {
+    const Vec3 q = box.to_local(v);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      out[axis].low = std::min(out[axis].low, q[static_cast<int>(axis)]);
+      out[axis].high = std::max(out[axis].high, q[static_cast<int>(axis)]);
+    }
+  }
+  return out;
+}
+
+double snap_tolerance(double half_extent) {
+  return std::min(snap_distance, half_extent / 4);
+}
+
+/// The axes of the box about whose middle planes the region is symmetric: its ends are, and so is its mean.
+std::array<bool, 3> symmetric_axes(const ContactRegion& region, const Box& box) {
+  const std::array<Interval, 3> along = extents(region, box);
+  const Vec3 mean = box.to_local(region.mean());
+  std::array<bool, 3> symmetric{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int i = static_cast<int>(axis);
+    symmetric[axis] = std::abs(along[axis].middle()) <= snap_tolerance(box.half[i]) &&
+                      std::abs(mean[i]) <= 0.25 * along[axis].half() + snap_tolerance(box.half[i]);
+  }
+  return symmetric;
+}
+
+/// Local coordinates in [-1,1]-units, put onto -1, 0 or 1 where they are near.
+Vec3 snapped_local(const Box& box, const Vec3& point) {
+  const Vec3 metric = box.to_local(point);
+  Vec3 local;
+  for (int axis = 0; axis < 3; ++axis) {
+    local[axis] = metric[axis] / box.half[axis];
+    for (const double target : {-1.0, 0.0, 1.0}) {
+      if (std::abs(metric[axis] - target * box.half[axis]) <= snap_tolerance(box.half[axis])) local[axis] = target;
+    }
+  }
+  return local;
+}
+
+constexpr double parallel = 0.985;  ///< cos 10°
+/// Points closer than this would be one point twice.
+constexpr double distinct = 2e-3;
+
+}  // namespace
+
+void ContactRegion::add(const ContactRegion& other) {
+  vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+  moment += other.moment;
+  area += other.area;
+}
+
+Vec3 ContactRegion::mean() const {
+  PARSEL_ASSERT(!vertices.empty(), "an empty region has no mean");
+  if (area > 1e-12) return moment / area;
+  Vec3 sum = Vec3::Zero();  // an edge or a corner
+  for (const Vec3& v : vertices) sum += v;
+  return sum / static_cast<double>(vertices.size());
+}
+
+ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const PartMesh& b, const Hexahedron& box_b) {
+  const Box first(box_a), second(box_b);
+  ContactRegion region;
+  const Vec3 gap =
+      (first.centre - second.centre).cwiseAbs() - first.reach(contact_distance) - second.reach(contact_distance);
+  if (gap.maxCoeff() > 0) return region;
+  clip_surface(a, second, region);
+  clip_surface(b, first, region);
+  return region;
+}
+
+bool contains(const Hexahedron& outer, const Hexahedron& inner) {
+  const Box box(outer);
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 q = box.to_local(inner.corners.row(k).transpose());
+    if ((q.cwiseAbs().array() > box.half.array() + contact_distance).any()) return false;
+  }
+  return true;
+}
+
+FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRegion& region, bool a_in_b,
+                       bool b_in_a) {
+  const Box box_a(a), box_b(b);
+  const bool a_smaller = a_in_b || (!b_in_a && box_a.half.norm() <= box_b.half.norm());
+  const Box& frame = a_smaller ? box_a : box_b;
+  const Box& other = a_smaller ? box_b : box_a;
+
+  std::array<Interval, 3> along;
+  std::array<bool, 3> shared{};
+  if (a_in_b || b_in_a) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      shared[axis] = true;
+      along[axis] = {-frame.half[static_cast<int>(axis)], frame.half[static_cast<int>(axis)]};
+    }
+  } else {
+    PARSEL_ASSERT(!region.empty(), "parts that meet have a region");
+    along = extents(region, frame);
+    const std::array<bool, 3> own = symmetric_axes(region, frame), others = symmetric_axes(region, other);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        if (std::abs(frame.axes.row(i).dot(other.axes.row(j))) < parallel) continue;
+        const auto axis = static_cast<std::size_t>(i);
+        if (own[axis] && others[static_cast<std::size_t>(j)] && along[axis].half() > distinct / 2) shared[axis] = true;
+      }
+    }
+  }
+
+  FoundAttachment found{0, {}};
+  found.order = static_cast<int>(std::count(shared.begin(), shared.end(), true));
+  // Every combination of low and high along the shared normals; the middle along the other axes.
+  for (int k = 0; k < 8; ++k) {
+    Vec3 point;
+    bool wanted = true;
+    for (int i = 0; i < 3; ++i) {
+      const Interval& interval = along[static_cast<std::size_t>(i)];
+      const bool high = corner_sign(k, i) > 0;
+      if (shared[static_cast<std::size_t>(i)]) {
+        point[i] = high ? interval.high : interval.low;
+      } else {
+        point[i] = interval.middle();
+        wanted = wanted && !high;
+      }
+    }
+    if (!wanted) continue;
+    const Vec3 world = frame.to_world(point);
+    found.attachment.points.push_back(world);
+    found.attachment.local_a.push_back(snapped_local(box_a, world));
+    found.attachment.local_b.push_back(snapped_local(box_b, world));
+  }
+  return found;
+}
+
+RelationKind attachment_kind(int order) {
+  constexpr std::array<RelationKind, 4> kinds = {RelationKind::point, RelationKind::line, RelationKind::face,
+                                                 RelationKind::volume};
+  PARSEL_ASSERT(order >= 0 && order <= 3, "an attachment's order is 0 to 3");
+  return kinds[static_cast<std::size_t>(order)];
+}
+
+}  // namespace parsel

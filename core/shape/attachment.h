@@ -1,0 +1,63 @@
+// Attachments between parts that touch or overlap. ParSEL, supplement §3.1.1 and §3.3.
+//
+// The intersection region of two parts is what of either surface lies in the other's slightly inflated box, computed by
+// clipping triangles rather than from random samples, so that ids and amounts do not jitter. The region's points are
+// put back onto the box they left through the inflation: for parts that merely touch it is flat.
+//
+// The order of an attachment is the number of symmetry planes that both boxes share (parallel within 10°) and about
+// which the region is symmetric as well: 0 a point (the region's centre), 1 a line (two points along the plane's
+// normal, at the region's ends), 2 a face (four points), 3 a volume (eight). The paper takes the smaller of the two
+// parts' own counts; for parallel boxes that is the same number, while for crossed ones it would tie axes that have
+// nothing to do with each other (the legs of a folding stool would be one block). A part inside another's box has
+// order 3.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/base/index.h"
+#include "core/shape/hexahedron.h"
+#include "core/shape/part.h"
+#include "core/shape/shape.h"
+
+namespace parsel {
+
+/// Boxes are inflated by this much when looking for contact: between 0.005 and 0.015 real furniture hangs together and
+/// neighbours that do not touch stay apart.
+inline constexpr double contact_distance = 0.01;
+
+/// Real models are sloppy: what lies this near a part's own symmetry plane or face counts as on it. A thin part's
+/// tolerance is a quarter of its half extent.
+inline constexpr double snap_distance = 0.01;
+
+/// The clipped surfaces of a contact, by their vertices and the mean by area.
+struct ContactRegion {
+  std::vector<Vec3> vertices;
+  Vec3 moment = Vec3::Zero();  ///< Σ area · centroid
+  double area = 0;
+  bool empty() const { return vertices.empty(); }
+  void add(const ContactRegion& other);
+  Vec3 mean() const;
+};
+
+/// What of either surface lies in the other's inflated box; empty when the parts do not meet.
+ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const PartMesh& b, const Hexahedron& box_b);
+
+/// Whether all of `inner` lies in the inflated `outer`.
+bool contains(const Hexahedron& outer, const Hexahedron& inner);
+
+struct FoundAttachment {
+  int order;  ///< 0…3
+  Attachment attachment;
+};
+
+/// The attachment of two boxes that meet in `region` (not empty). Local coordinates are put onto the centre, symmetry
+/// planes and faces of each part on its own where they are within snap_distance, so the two parts' points may lie that
+/// far apart at rest. `a_in_b`, `b_in_a`: contained.
+FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRegion& region, bool a_in_b, bool b_in_a);
+
+RelationKind attachment_kind(int order);
+
+}  // namespace parsel

@@ -1,0 +1,232 @@
+// Format `parsel/shape` v1.
+//
+// Relations: {"id","kind","parts":[ids], …} with, for reflection, "origin", "normal", "corner_map"; translation,
+// "parent", "start", "end", "count", "delta", "axis", "direction"; rotation, "parent", "centre", "axis", "parent_axis",
+// "radius", "count", "angle", "arc"; attachments, "points", "local_a", "local_b". A part may have "group": the id of
+// its relation. "count", "delta", "angle" and "arc" follow from the rest and are not read back.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/base/tolerance.h"
+#include "core/shape/shape.h"
+
+namespace parsel {
+namespace {
+
+using nlohmann::json;
+
+json vector_json(const Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+json points_json(const std::vector<Vec3>& points) {
+  json out = json::array();
+  for (const Vec3& p : points) out.push_back(vector_json(p));
+  return out;
+}
+
+/// What went wrong while reading, thrown and caught inside this file only: the reader is one long chain of look-ups.
+struct Malformed {
+  std::string place, cause;
+};
+
+const json& member(const json& object, const char* name, const std::string& place) {
+  if (!object.is_object()) throw Malformed{place, "it is not an object"};
+  const auto found = object.find(name);
+  if (found == object.end()) throw Malformed{place, std::string("'") + name + "' is missing"};
+  return *found;
+}
+const json& array(const json& object, const char* name, const std::string& place) {
+  const json& value = member(object, name, place);
+  if (!value.is_array()) throw Malformed{place, std::string("'") + name + "' is not an array"};
+  return value;
+}
+std::string text(const json& object, const char* name, const std::string& place) {
+  const json& value = member(object, name, place);
+  if (!value.is_string()) throw Malformed{place, std::string("'") + name + "' is not a string"};
+  return value.get<std::string>();
+}
+double number(const json& value, const std::string& place) {
+  if (!value.is_number() || !std::isfinite(value.get<double>())) throw Malformed{place, "a number was expected"};
+  return value.get<double>();
+}
+int integer(const json& object, const char* name, const std::string& place) {
+  const json& value = member(object, name, place);
+  const bool good =
+      value.is_number_integer() && value.get<std::int64_t>() >= -1 && value.get<std::int64_t>() < 0x7fffffff;
+  if (!good) throw Malformed{place, std::string("'") + name + "' is not an integer in range"};
+  return value.get<int>();
+}
+Vec3 vector(const json& value, const std::string& place) {
+  if (!value.is_array() || value.size() != 3) throw Malformed{place, "a vector of 3 numbers was expected"};
+  return {number(value[0], place), number(value[1], place), number(value[2], place)};
+}
+std::vector<Vec3> points(const json& object, const char* name, const std::string& place) {
+  std::vector<Vec3> out;
+  for (const json& value : array(object, name, place)) out.push_back(vector(value, place));
+  return out;
+}
+
+json part_json(const Shape& shape, const Part& part) {
+  json corners = json::array(), axes = json::array(), members = json::array();
+  for (int k = 0; k < 8; ++k) corners.push_back(vector_json(part.hexahedron.corners.row(k).transpose()));
+  for (int i = 0; i < 3; ++i) axes.push_back(vector_json(part.hexahedron.axes.row(i).transpose()));
+  for (const PartIndex p : part.members) members.push_back(shape.parts[p].id);
+  json out = {{"id", part.id},     {"label", part.label},          {"name", part.name},
+              {"node", part.node}, {"primitive", part.primitive},  {"corners", corners},
+              {"axes", axes},      {"virtual", part.is_virtual()}, {"members", members}};
+  if (part.group) out["group"] = shape.relations[*part.group].id;
+  return out;
+}
+
+json relation_json(const Shape& shape, const Relation& relation) {
+  json parts = json::array();
+  for (const PartIndex p : relation.parts) parts.push_back(shape.parts[p].id);
+  json out = {{"id", relation.id}, {"kind", to_string(relation.kind)}, {"parts", parts}};
+  const std::size_t count = relation.parts.size();
+  if (const auto* r = std::get_if<Reflection>(&relation.detail)) {
+    out["origin"] = vector_json(r->origin);
+    out["normal"] = vector_json(r->normal);
+    out["corner_map"] = r->corner_map;
+  } else if (const auto* t = std::get_if<Translation>(&relation.detail)) {
+    out["parent"] = shape.parts[t->parent].id;
+    out["start"] = vector_json(t->start);
+    out["end"] = vector_json(t->end);
+    out["count"] = count;
+    out["delta"] = vector_json((t->end - t->start) / static_cast<double>(count - 1));
+    out["axis"] = t->axis;
+    out["direction"] = t->direction;
+  } else if (const auto* o = std::get_if<Rotation>(&relation.detail)) {
+    out["parent"] = shape.parts[o->parent].id;
+    out["centre"] = vector_json(o->centre);
+    out["axis"] = vector_json(o->axis);
+    out["parent_axis"] = o->parent_axis;
+    out["radius"] = o->radius;
+    out["count"] = count;
+    out["angle"] = 2 * pi / static_cast<double>(count);
+    out["arc"] = 2 * pi * o->radius / static_cast<double>(count);
+  } else if (const auto* a = std::get_if<Attachment>(&relation.detail)) {
+    out["points"] = points_json(a->points);
+    out["local_a"] = points_json(a->local_a);
+    out["local_b"] = points_json(a->local_b);
+  }
+  return out;
+}
+
+class Reader {
+ public:
+  Shape read(const json& file) {
+    if (text(file, "format", "/") != "parsel/shape") throw Malformed{"/format", "it is not parsel/shape"};
+    if (integer(file, "version", "/") != 1) throw Malformed{"/version", "only version 1 is known"};
+    shape_.name = text(file, "name", "/");
+    shape_.sha256 = text(file, "sha256", "/");
+    shape_.frame.centre = vector(member(member(file, "frame", "/"), "centre", "/frame"), "/frame/centre");
+    shape_.frame.scale = number(member(file["frame"], "scale", "/frame"), "/frame/scale");
+    const json &parts = array(file, "parts", "/"), &relations = array(file, "relations", "/");
+    for (std::size_t i = 0; i < parts.size(); ++i) read_part(parts[i], "/parts/" + std::to_string(i));
+    for (std::size_t i = 0; i < relations.size(); ++i) read_relation(relations[i], "/relations/" + std::to_string(i));
+    for (const PartIndex p : shape_.parts.indices()) link_part(parts[p.value()], p);
+    for (const json& warning : array(file, "warnings", "/")) {
+      shape_.warnings.push_back({text(warning, "place", "/warnings"), text(warning, "text", "/warnings")});
+    }
+    return std::move(shape_);
+  }
+
+ private:
+  void read_part(const json& entry, const std::string& place) {
+    Part part;
+    part.id = text(entry, "id", place);
+    part.label = text(entry, "label", place);
+    part.name = text(entry, "name", place);
+    part.node = integer(entry, "node", place);
+    part.primitive = integer(entry, "primitive", place);
+    const std::vector<Vec3> corners = points(entry, "corners", place), axes = points(entry, "axes", place);
+    if (corners.size() != 8 || axes.size() != 3) throw Malformed{place, "a hexahedron has 8 corners and 3 axes"};
+    for (int k = 0; k < 8; ++k) part.hexahedron.corners.row(k) = corners[static_cast<std::size_t>(k)].transpose();
+    for (int i = 0; i < 3; ++i) part.hexahedron.axes.row(i) = axes[static_cast<std::size_t>(i)].transpose();
+    by_id_.emplace(part.id, PartIndex(shape_.parts.size()));
+    shape_.parts.push_back(std::move(part));
+  }
+
+  void link_part(const json& entry, PartIndex index) {
+    const std::string place = "/parts/" + std::to_string(index.value());
+    for (const json& id : array(entry, "members", place)) shape_.parts[index].members.push_back(part(id, place));
+    if (!entry.contains("group")) return;
+    const auto found = relation_by_id_.find(text(entry, "group", place));
+    if (found == relation_by_id_.end()) throw Malformed{place, "its group does not exist"};
+    shape_.parts[index].group = found->second;
+  }
+
+  PartIndex part(const json& id, const std::string& place) const {
+    if (!id.is_string()) throw Malformed{place, "a part's id was expected"};
+    const auto found = by_id_.find(id.get<std::string>());
+    if (found == by_id_.end()) throw Malformed{place, "it names a part that does not exist"};
+    return found->second;
+  }
+
+  void read_relation(const json& entry, const std::string& place) {
+    Relation relation;
+    relation.id = text(entry, "id", place);
+    const std::optional<RelationKind> kind = relation_kind(text(entry, "kind", place));
+    if (!kind) throw Malformed{place, "its kind is unknown"};
+    relation.kind = *kind;
+    for (const json& id : array(entry, "parts", place)) relation.parts.push_back(part(id, place));
+    if (*kind == RelationKind::reflection) {
+      Reflection r{vector(member(entry, "origin", place), place), vector(member(entry, "normal", place), place), {}};
+      const json& map = array(entry, "corner_map", place);
+      if (map.size() != 8) throw Malformed{place, "a corner map has 8 entries"};
+      for (std::size_t k = 0; k < 8; ++k)
+        r.corner_map[k] = static_cast<int>(std::clamp(number(map[k], place), -1.0, 8.0));
+      relation.detail = r;
+    } else if (*kind == RelationKind::translation) {
+      relation.detail =
+          Translation{part(member(entry, "parent", place), place), vector(member(entry, "start", place), place),
+                      vector(member(entry, "end", place), place), integer(entry, "axis", place),
+                      integer(entry, "direction", place)};
+    } else if (*kind == RelationKind::rotation) {
+      relation.detail =
+          Rotation{part(member(entry, "parent", place), place), vector(member(entry, "centre", place), place),
+                   vector(member(entry, "axis", place), place), integer(entry, "parent_axis", place),
+                   number(member(entry, "radius", place), place)};
+    } else {
+      relation.detail =
+          Attachment{points(entry, "points", place), points(entry, "local_a", place), points(entry, "local_b", place)};
+    }
+    relation_by_id_.emplace(relation.id, RelationIndex(shape_.relations.size()));
+    shape_.relations.push_back(std::move(relation));
+  }
+
+  Shape shape_;
+  std::map<std::string, PartIndex> by_id_;
+  std::map<std::string, RelationIndex> relation_by_id_;
+};
+
+}  // namespace
+
+json to_json(const Shape& shape) {
+  json parts = json::array(), relations = json::array(), warnings = json::array();
+  for (const Part& part : shape.parts) parts.push_back(part_json(shape, part));
+  for (const Relation& relation : shape.relations) relations.push_back(relation_json(shape, relation));
+  for (const Warning& warning : shape.warnings) warnings.push_back({{"place", warning.place}, {"text", warning.text}});
+  return {{"format", "parsel/shape"},
+          {"version", 1},
+          {"name", shape.name},
+          {"sha256", shape.sha256},
+          {"frame", {{"centre", vector_json(shape.frame.centre)}, {"scale", shape.frame.scale}}},
+          {"parts", parts},
+          {"relations", relations},
+          {"warnings", warnings}};
+}
+
+Result<Shape> shape_from_json(const json& file) {
+  try {
+    Shape shape = Reader().read(file);
+    if (const Status sound = validate(shape); !sound.ok()) return sound.error();
+    return shape;
+  } catch (const Malformed& fault) {
+    return Error{"shape/json", fault.place, fault.cause, "make the file anew with parsel inspect"};
+  }
+}
+
+}  // namespace parsel

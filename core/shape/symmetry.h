@@ -1,0 +1,71 @@
+// Symmetry relations among parts of one label. ParSEL, supplement §3.1.1 and §3.3.
+//
+// Parts are compared when their labels agree after direction words are stripped (grouping_key). What agrees is then
+// verified on the surfaces: samples of one part, carried over, lie on the other's triangles, and the other way round.
+//
+// Rules, in this order:
+//   1. Rotation: at least three congruent parts on a circle at equal angles (closed loop), each the turned image of the
+//      first. The axis is a global axis, or the normal of the parts' common plane.
+//      Four parts are a rotation only when they point along the radius (the blades of a fan, the feet of a star base)
+//      or when they are not mirror images of each other; four legs at the corners of a table, or four rails along its
+//      edges, are reflections, because widening the table keeps those and breaks a rotation.
+//   2. Translation: at least three congruent parts at equal distances on a line; the longest line first.
+//      A part is in at most one translation or rotation group; there are no groups of groups.
+//   3. Reflection about planes x, y or z = constant, pair by pair. For each set of congruent parts and each axis at
+//   most
+//      one plane: the middle plane of the shape when it pairs any of them, else the set's own middle plane when that
+//      maps the whole set onto itself. Parts of one group are not paired with each other; two groups are paired when
+//      all their instances are.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/base/index.h"
+#include "core/shape/hexahedron.h"
+#include "core/shape/part.h"
+
+namespace parsel {
+
+struct SymmetryOptions {
+  double position = 0.01;  ///< centres may be off by this much, normalised; below δ = 0.0144
+  double surface = 0.05;   ///< a surface may be off by this share of the part's half-diagonal, at most `position` …
+  double finest = 0.002;   ///< … and need not be closer than this
+  double agreeing = 0.95;  ///< share of the samples that must lie on the other surface
+  std::size_t samples = 200;
+};
+
+/// Part b is the image of part a about the plane `coordinate[axis] = offset`; a < b.
+struct MirrorPair {
+  PartIndex a, b;
+  int axis;
+  double offset;
+};
+
+/// Instance k is instance 0 translated by k · delta (translation) or turned by k · 2π/n about the axis (rotation).
+struct SymmetryGroup {
+  enum class Kind { translation, rotation };
+  Kind kind = Kind::translation;
+  std::vector<PartIndex> parts;
+  Vec3 delta = Vec3::Zero();
+  Vec3 centre = Vec3::Zero(), axis = Vec3::Zero();
+};
+
+struct Symmetries {
+  std::vector<SymmetryGroup> groups;
+  std::vector<MirrorPair> mirrors;
+};
+
+/// `keys` are grouping keys, `boxes` oriented boxes of the parts. Deterministic.
+Symmetries find_symmetries(const PartData<PartMesh>& meshes, const PartData<Hexahedron>& boxes,
+                           const PartData<std::string>& keys, const SymmetryOptions& options = {});
+
+/// The mirror image of a hexahedron about coordinate[axis] = offset, its local axis `axis` reversed so that it stays
+/// right-handed: corner k is the image of corner k ^ (1 << axis).
+Hexahedron mirrored(const Hexahedron& hexahedron, int axis, double offset);
+
+/// Makes the boxes of parts that are tied by symmetry exact images of each other, starting from the first of each set.
+PartData<Hexahedron> align_boxes(const PartData<Hexahedron>& boxes, const Symmetries& symmetries);
+
+}  // namespace parsel

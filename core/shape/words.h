@@ -1,0 +1,24 @@
+// A shape in words, for a language model (ParSEL §6, supplement §5.2) and for people.
+//
+// Names come from the file, so from strangers: they appear only between double quotes, without control characters and
+// quotes of their own, cut to length; everywhere else parts go by their ids (a-z, 0-9, _).
+#pragma once
+
+#include <string>
+
+#include "core/shape/shape.h"
+
+namespace parsel {
+
+/// The active parts and relations (groups standing), a line each: id, name, size and place in percent of the whole;
+/// groups with their instances; joints collected by part. Around 60 bytes a part and 30 a joint.
+std::string describe(const Shape& shape);
+
+/// One relation as a sentence without a full stop: "leg_left and leg_right are mirror images of each other, left and
+/// right".
+std::string describe(const Shape& shape, RelationIndex relation);
+
+/// A name as it may appear in a prompt: quoted, at most 40 bytes.
+std::string quoted_name(std::string_view name);
+
+}  // namespace parsel
