@@ -2,7 +2,7 @@
 import type { Server } from 'node:http';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import type { DebugHandle } from '../../web/src/session/debug';
+import type { DebugHandle } from '../../web/src/ui/debug';
 import { launch, openPage, serve } from './harness';
 
 let server: Server;

@@ -1,6 +1,6 @@
 import { render } from 'preact';
 import { start } from './session/core';
-import { exposeForDebugging } from './session/debug';
+import { exposeForDebugging } from './ui/debug';
 import { App } from './ui/App';
 import { detectSupport, missingSupport } from './ui/support';
 

@@ -26,6 +26,7 @@ export class Stage {
   readonly #clock = new three.Timer();
   #insets: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
   #frame = 0;
+  #hasMetal = false;
   #actor: Actor | null = null;
   #accent = '#2361cf';
   #quiet = '#5a5f66';
@@ -50,22 +51,23 @@ export class Stage {
     const sun = this.#sun;
     sun.position.set(1.6, 3.4, 2.2);
     sun.castShadow = true;
-    sun.shadow.mapSize.set(2048, 2048);
+    sun.shadow.mapSize.set(1024, 1024);
     sun.shadow.radius = 5;
     sun.shadow.bias = -0.0004;
     sun.shadow.normalBias = 0.01;
     this.#ground = new three.Mesh(new three.CircleGeometry(8, 48), new three.ShadowMaterial({ opacity: 0.2 }));
     this.#ground.rotation.x = -Math.PI / 2;
     this.#ground.receiveShadow = true;
-    this.#scene.add(sun, sun.target, this.#ground);
-    this.#light();
+    const fill = new three.DirectionalLight(0xffffff, 0.5);
+    fill.position.set(-2.5, 1.2, 1.5);
+    this.#scene.add(sun, sun.target, fill, new three.HemisphereLight(0xffffff, 0xa8a49c, 1.7), this.#ground);
 
     canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault(); // else it never comes back
       this.onContext(true);
     });
     canvas.addEventListener('webglcontextrestored', () => {
-      this.#light();
+      this.#reflect();
       this.onContext(false);
       this.invalidate();
     });
@@ -81,6 +83,12 @@ export class Stage {
     actor.overlays.setColours({ accent: this.#accent, quiet: this.#quiet });
     this.#scene.add(actor.view.root, actor.view.extras, actor.overlays.root);
     this.#actor = actor;
+    const materials = loaded.meshes.flatMap(({ mesh }) => mesh.material);
+    const isMetal = (material: three.Material) => (material as three.MeshStandardMaterial).metalness > 0.1;
+    if (!this.#hasMetal && materials.some(isMetal)) {
+      this.#hasMetal = true;
+      this.#reflect();
+    }
     return actor;
   }
 
@@ -162,6 +170,12 @@ export class Stage {
     );
   }
 
+  /** For tests: what the graphics card makes of a part. See readback.ts. */
+  async readVertices(part: number, what: 'positions' | 'normals'): Promise<Float32Array> {
+    const { readVertices } = await import('./readback');
+    return this.#actor === null ? new Float32Array(0) : readVertices(this.#renderer, this.#actor.view, part, what);
+  }
+
   /** Draws at the next frame. */
   invalidate(): void {
     if (this.#frame === 0) this.#frame = requestAnimationFrame(this.#draw);
@@ -184,11 +198,12 @@ export class Stage {
     if (moving) this.invalidate();
   };
 
-  /** A soft room of light, so that metals have something to mirror. */
-  #light(): void {
+  /** A room for metals to mirror. Filtering it takes a software renderer seconds, so only models with metal get it. */
+  #reflect(): void {
+    if (!this.#hasMetal) return;
     const generator = new three.PMREMGenerator(this.#renderer);
     this.#scene.environment = generator.fromScene(new RoomEnvironment(), 0.04, 0.1, 100, { size: 64 }).texture;
-    this.#scene.environmentIntensity = 0.75;
+    this.#scene.environmentIntensity = 0.35;
     generator.dispose();
   }
 

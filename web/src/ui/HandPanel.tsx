@@ -311,7 +311,7 @@ function Disabled({ shape, part, disabled }: { shape: Shape; part: string; disab
   const own = shape.relations.filter(({ parts }) => parts.includes(part));
   const items = [
     ...kinds.filter(([kind]) => shape.relations.some((relation) => `kind:${relation.kind}` === kind)),
-    ...own.map((relation) => [relation.id, relationWords(document.value, relation)] as const),
+    ...own.map((relation) => [relation.id, relationWords(document.value, relation, part)] as const),
   ];
   return (
     <details>

@@ -1,7 +1,7 @@
 // One edit as a card: its request, its slider, what it keeps, and on demand every statement with its why.
 import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
-import { isGroup, type RelationReport, type Statement } from '../program/types';
+import type { RelationReport, Statement } from '../program/types';
 import type { LayerEntry } from '../session/document';
 import { formatMeasure } from '../session/measure';
 import { playing, playOn, stop } from '../session/play';
@@ -110,7 +110,7 @@ function Status({ reports }: { reports: readonly RelationReport[] }) {
         <Icon name={broken ? 'warning' : 'check'} />
         <span>
           {kept}
-          <span class="quiet">{sampled === 0 ? ' · proved' : ` · ${sampled} of them sampled, the others proved`}</span>
+          <span class="quiet">{sampled === 0 ? ' · proved' : ` · ${sampled} sampled, the others proved`}</span>
         </span>
       </p>
       {notable.length > 0 && (
@@ -182,8 +182,4 @@ function formula(statement: Statement): string {
   const text = Object.entries(fields).map(([name, value]) => `${name}: ${JSON.stringify(value).replaceAll('"', '')}`);
   const reason = why && why.relations.length > 0 ? `\nbecause of ${why.relations.join(', ')}` : '';
   return `${op}\n${text.join('\n')}${reason}`;
-}
-
-export function isGroupPart(id: string): boolean {
-  return document.value.model?.shape.relations.some((relation) => isGroup(relation) && relation.parent === id) ?? false;
 }

@@ -159,7 +159,7 @@ function Relations() {
                 onFocus={show}
                 onBlur={hide}
               >
-                {relationWords(document.value, relation)}
+                {relationWords(document.value, relation, id)}
               </button>
             </li>
           );

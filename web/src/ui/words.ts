@@ -1,5 +1,8 @@
 // The edit language in words: what statements do, why they are there, what relations say.
 
+import { compileAmount } from '../program/compile';
+import { parametersOf } from '../program/domain';
+import { parseAmount } from '../program/parse';
 import {
   type DirectionReference,
   isGroup,
@@ -54,10 +57,19 @@ function vectorOf(shape: Shape, reference: DirectionReference): Vec3 {
 
 const isStraight = (v: Vec3) => Math.max(...v.map(Math.abs)) > 0.98 * Math.hypot(...v);
 
-/** "up", "to its left", "at an angle". */
-function wayWords(v: Vec3): string {
+/** Whether an amount falls as its parameter grows from 0, so that its direction reads the other way round. */
+function falls(amount: string): boolean {
+  const parsed = parseAmount(amount);
+  if (!parsed.ok) return false;
+  const names = [...parametersOf(parsed.value)];
+  const at = compileAmount(parsed.value, names);
+  return at(names.map(() => 1e-3)) < at(names.map(() => 0));
+}
+
+/** "up", "to its left", "at an angle": the way in which a growing slider moves. */
+function wayWords(v: Vec3, amount: string): string {
   const axis = mostAlong(v);
-  const way = ways[axis]?.[v[axis] < 0 ? 0 : 1] ?? '';
+  const way = ways[axis]?.[v[axis] < 0 !== falls(amount) ? 0 : 1] ?? '';
   return isStraight(v) ? way : `${way}, at an angle`;
 }
 
@@ -87,7 +99,7 @@ export function statementWords(document: Document, statement: Statement): string
   const what = kind === 'whole' ? capital(part) : `${capital(featureWords(statement.feature))} of ${part}`;
   switch (statement.op) {
     case 'translate':
-      return `${what} moves ${wayWords(vectorOf(shape, statement.direction))}`;
+      return `${what} moves ${wayWords(vectorOf(shape, statement.direction), statement.amount)}`;
     case 'rotate': {
       const axis = axisWords[mostAlong(vectorOf(shape, statement.axis))];
       return `${what} tilts about its ${axis} axis, ${fromWords(document, statement.part, statement.origin)}`;
@@ -103,7 +115,7 @@ export function statementWords(document: Document, statement: Statement): string
     case 'scale_3d':
       return `${what} grows in all directions, ${fromWords(document, statement.part, statement.origin)}`;
     case 'shear':
-      return `${what} slants ${wayWords(vectorOf(shape, statement.direction))}`;
+      return `${what} slants ${wayWords(vectorOf(shape, statement.direction), statement.amount)}`;
   }
 }
 
@@ -147,13 +159,16 @@ export function listWords(names: readonly string[], most = 3): string {
 
 const joints = { point: 'at a point', line: 'along a line', face: 'by a face', volume: 'inside' } as const;
 
-export function relationWords(document: Document, relation: ShapeRelation): string {
+/** @param from reads the relation from this part's side: "joined to front left leg at a point" */
+export function relationWords(document: Document, relation: ShapeRelation, from?: string): string {
   const [a = '', b = ''] = relation.parts.map((id) => nameOf(document, id));
-  if (relation.kind === 'reflection') return `${a} mirrors ${b}`;
+  const other = from !== undefined && from === relation.parts[1] ? a : b;
+  if (relation.kind === 'reflection') return from === undefined ? `${a} mirrors ${b}` : `mirrors ${other}`;
   if (isGroup(relation)) {
     const group = nameOf(document, relation.parent);
     return `${group}: ${relation.parts.length} ${relation.kind === 'translation' ? 'evenly spaced' : 'in a ring'}`;
   }
+  if (from !== undefined) return `joined to ${other} ${joints[relation.kind]}`;
   return `${a} and ${b} joined ${joints[relation.kind]}`;
 }
 

@@ -1,18 +1,23 @@
 // With `?debug` in its address, the page hands its core and its state to the console (and to the tests) as `parsel`.
+import type { Stage } from '../scene/stage';
+import { stage } from './view';
 import type { CoreClient } from '../worker/client';
-import { core, substitute } from './core';
-import type { ModelCore } from './model_core';
-import { compiled, document } from './session';
+import { core, substitute } from '../session/core';
+import type { Document } from '../session/document';
+import type { ModelCore } from '../session/model_core';
+import { addProgram, compiled, document, slide } from '../session/session';
 
 export interface DebugHandle {
   /** The running core. Throws while it starts. */
   client(): CoreClient;
   /** Puts another core in its place. */
   substitute(models: ModelCore): void;
+  document(): Document;
+  stage(): Stage | null;
   /** Corners of all parts as the sliders stand, part × 24. */
   corners(): number[];
-  /** Ids of the parts, in the order of `corners`. */
-  parts(): string[];
+  addProgram: typeof addProgram;
+  slide: typeof slide;
 }
 
 export function exposeForDebugging(): void {
@@ -25,8 +30,11 @@ export function exposeForDebugging(): void {
     substitute(models) {
       substitute.value = models;
     },
+    document: () => document.value,
+    stage: () => stage.value,
     corners: () => (compiled.value.kind === 'ready' ? [...compiled.value.evaluator.corners] : []),
-    parts: () => document.value.model?.shape.parts.map(({ id }) => id) ?? [],
+    addProgram,
+    slide,
   };
   Object.assign(globalThis, { parsel: handle });
 }
