@@ -1,29 +1,47 @@
 // Evaluates a program at given parameter values: corners in, corners out, nothing solved.
 //
-// The state of a shape is the corners of every part and, for every translation or rotation group, its instances:
-//   * A geometric operator on a real part moves that part's corners.
-//   * On a virtual part it moves the parent's corners, and every instance of the group, its start and end points (or
-//     centre) keep their local coordinates in the parent: they are carried by the parent's trilinear map, from the
-//     parent's corners before the statement to those after. For a whole-part operator that is the operator itself.
-//   * On a member of a group it moves that instance alone. Refused once the count of the group has been changed.
-//   * change_delta (translation): instance i of n moves by (i − i₀)·a·delta with delta = (end − start)/(n − 1) and
-//     i₀ = 0, (n−1)/2, n−1 for anchor start, middle (also fit), end. start and end move with the first and last
-//     instance; the parent's corners on the side of the first (last) instance along the group's axis move by the same
-//     vector.
-//   * change_delta (rotation): instance k moves by a·r_k, r_k the vector from the axis to the instance's centre; the
-//     parent's corner with in-plane signs (s₁, s₂) moves by a·radius·(s₁·e₁ + s₂·e₂), e₁, e₂ its in-plane axes.
-//   * change_count: n' = max(1, n + floor(a + 1e-9)). Translation: anchor start keeps the first instance and delta, end
-//   the
-//     last, middle the mean of start and end; fit keeps start and end and spaces n' instances evenly between (n' = 1:
-//     in the middle). Every new instance is a copy of the template (start, fit: first; end: last; middle: number
-//     floor((n-1)/2)), translated. The parent's two sides follow the first and last instance as in change_delta.
-//     Rotation: instance k is instance 0 turned by k·2π/n' about the axis; the parent stays.
-//   * References (origin, direction, normal) are read on the state at the start of the layer.
-// Statements of a layer run in order; each depends on the parameters and on its own part or group only.
+// The state of a shape is the corners of every part and, for every translation or rotation group, its instances. Layers
+// run in order, and the statements of a layer in order; each depends on the parameters and on its own part or group
+// only. web/src/program/interpret.ts does the same; tests/golden/program_vectors.json keeps the two in step.
+//
+// References (origin, direction, normal) are read on the state at the start of the layer. The direction of a part's
+// axis is the unit vector from its - to its + face centre; when those are closer than 1e-12 the statement does nothing.
+// A literal direction is normalised. An amount that is not finite counts as 0 (validate() refuses such programs).
+//
+// A geometric operator
+//   * on a real part moves that part's corners;
+//   * on a member of a group moves that instance alone: not the group's points, not the parent. Refused by validate()
+//     once a change_count on the group stands before it. Member k is instance min(k, n - 1) after that;
+//   * on a virtual part moves the parent's corners; every instance of the group, its start and end (or centre) keep
+//   their
+//     local coordinates in the parent. For the whole-part feature that is the operator itself. For other features a
+//     point moves by Σₖ Nₖ(u)·(H'ₖ - Hₖ), u its local coordinates in the parent before the statement (see
+//     local_coordinates()). A rotation group's axis then is along the parent's local axis parent_axis, with the sign
+//     that it has at rest (it stays when that axis is degenerate), and its radius the mean distance of the instances'
+//     centres from the axis.
+//
+// Translation groups. Instance i of n stands at p_i = start + i·delta with delta = (end - start)/(n - 1); a single one
+// at (start + end)/2, and then delta is that of the shape at rest. The parent's first side, its corners with sign
+// -direction along `axis`, moves with start, its last side with end.
+//   * change_delta: instance i moves by (i - i₀)·a·delta, i₀ = 0, (n - 1)/2, n - 1 for anchor start, middle (also fit),
+//     end. start and end move with the first and last instance. n = 1: nothing moves.
+//   * change_count: n' = n + floor(a + 1e-9), clamped to 1…1000. When n' = n nothing changes. Else all n' instances are
+//     copies of instance t, translated by q_j - p_t:
+//       start   t = 0              q_j = p_0 + j·delta                                start = q_0, end = q_{n'-1}
+//       end     t = n - 1          q_j = p_{n-1} - (n' - 1 - j)·delta                 likewise
+//       middle  t = ⌊(n - 1)/2⌋    q_j = (start + end)/2 + (j - (n' - 1)/2)·delta     likewise
+//       fit     t = 0              q_j = start + j·(end - start)/(n' - 1)             start, end stay
+//     (fit with n' = 1: q_0 = (start + end)/2).
+// Rotation groups; anchors are ignored.
+//   * change_delta: instance k moves by a·r_k, r_k the vector from the axis to the instance's centre (the mean of its
+//     corners). The parent's corner with in-plane signs (s₁, s₂) moves by a·radius·(s₁·e₁ + s₂·e₂), e₁ and e₂ the unit
+//     directions of its two other local axes before the statement, zero when degenerate. Then radius becomes (1 +
+//     a)·radius.
+//   * change_count: n' as above; when n' ≠ n, instance k is instance 0 turned by k·2π/n' about the axis. The parent
+//   stays.
 #pragma once
 
-#include <map>
-#include <string>
+#include <memory>
 #include <vector>
 
 #include "core/edit/program.h"
@@ -33,30 +51,35 @@ namespace parsel {
 /// A translation or rotation group under edit.
 struct GroupState {
   std::vector<Corners> instances;  ///< in order; as many as the relation has parts until a change_count
-  bool count_changed = false;
+  bool count_changed = false;      ///< a change_count has changed the number at least once
+  int source = -1;                 ///< the member that all instances are copies of once count_changed, else -1
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();    ///< translation
   Vec3 centre = Vec3::Zero(), axis = Vec3::Zero();  ///< rotation
   double radius = 0;                                ///< rotation
 };
 
 struct State {
-  PartData<Corners> parts;          ///< members of a group whose count changed: the first of its instances, clamped
+  PartData<Corners> parts;          ///< member k of a group: its instance min(k, n - 1)
   RelationData<GroupState> groups;  ///< empty for relations that are no group
 };
+
+/// Local coordinates of a point in a hexahedron that need not be a box, by Newton's method on the trilinear map from
+/// the affine guess (the map of the corners' mean and the mean axes, exact for a parallelepiped): at most 32 steps,
+/// until no component of a step exceeds 1e-12. Where that fails, the affine guess; where that is singular, the centre.
+Vec3 local_coordinates(const Corners& corners, const Vec3& world);
 
 /// A program with its references and amounts compiled for one shape. Holds no reference to either.
 class Evaluator {
  public:
   /// `program` must have passed validate() for `shape`.
   Evaluator(const Program& program, const Shape& shape);
-  /// `values[i]` is the value of layer i's parameter. Deterministic, no allocation beyond the returned state.
+
+  /// `values[i]` is the value of layer i's parameter. Deterministic.
   State operator()(const std::vector<double>& values) const;
 
  private:
-  struct CompiledStatement;
-  struct CompiledLayer;
-  std::vector<CompiledLayer> layers_;
-  // (private data is the implementation's to choose)
+  struct Implementation;
+  std::shared_ptr<const Implementation> implementation_;
 };
 
 /// The shape at rest.

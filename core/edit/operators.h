@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "core/base/geometry.h"
+#include "core/base/result.h"
 
 namespace parsel {
 
@@ -42,6 +43,9 @@ bool needs_direction(Op op);
 bool needs_normal(Op op);
 
 bool selects(const LocalTriple& feature, int corner);
+
+/// Where a geometric operator takes one point; the feature is not looked at. `amount` as in apply_operator().
+Vec3 displaced(const ResolvedOperator& op, double amount, const Vec3& point);
 
 /// Applies a geometric operator in place. `amount` in normalised lengths (translate), radians (rotate) or a ratio.
 void apply_operator(const ResolvedOperator& op, double amount, Corners& corners);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "core/base/sha256.h"
@@ -134,26 +135,46 @@ class Builder {
     }
   }
 
-  /// Between real parts first; a virtual part then inherits the regions of its instances.
-  void add_attachments() {
-    std::map<std::pair<PartIndex, PartIndex>, ContactRegion> regions;
-    const auto at = [](PartIndex a, PartIndex b) { return std::pair(std::min(a, b), std::max(a, b)); };
+  using Regions = std::map<std::pair<PartIndex, PartIndex>, ContactRegion>;
+
+  /// Where real parts meet; a second look, further away, only between what the first left apart.
+  Regions real_regions() const {
+    Regions regions;
     const std::size_t real = meshes_.size();
-    for (std::size_t i = 0; i < real; ++i) {
-      for (std::size_t k = i + 1; k < real; ++k) {
-        const PartIndex a(i), b(k);
-        const Hexahedron &ha = shape_.parts[a].hexahedron, &hb = shape_.parts[b].hexahedron;
-        ContactRegion region = contact_region(meshes_[a], ha, meshes_[b], hb);
-        // A part inside another's box is attached even when their surfaces do not come near each other.
-        if (!region.empty() || contains(ha, hb) || contains(hb, ha)) regions.emplace(at(a, b), std::move(region));
+    std::vector<std::size_t> component(real);
+    std::iota(component.begin(), component.end(), std::size_t{0});
+    const auto join = [&](std::size_t i, std::size_t k) {
+      const std::size_t from = component[k], to = component[i];
+      if (from != to) std::replace(component.begin(), component.end(), from, to);
+    };
+    for (const double distance : {contact_distance, far_contact_distance}) {
+      const std::vector<std::size_t> before = component;
+      for (std::size_t i = 0; i < real; ++i) {
+        for (std::size_t k = i + 1; k < real; ++k) {
+          if (distance > contact_distance && before[i] == before[k]) continue;
+          const PartIndex a(i), b(k);
+          const Hexahedron &ha = shape_.parts[a].hexahedron, &hb = shape_.parts[b].hexahedron;
+          ContactRegion region = contact_region(meshes_[a], ha, meshes_[b], hb, distance);
+          // A part inside another's box is attached even when their surfaces do not come near each other.
+          if (region.empty() && !contains(ha, hb) && !contains(hb, ha)) continue;
+          regions.emplace(std::pair(a, b), std::move(region));
+          join(i, k);
+        }
       }
     }
+    return regions;
+  }
+
+  /// Between real parts first; a virtual part then inherits the regions of its instances.
+  void add_attachments() {
+    const auto at = [](PartIndex a, PartIndex b) { return std::pair(std::min(a, b), std::max(a, b)); };
+    Regions regions = real_regions();
     const auto nodes = [&](PartIndex p) {
       std::vector<PartIndex> out = {p};
       if (const auto parent = parent_of(p)) out.push_back(*parent);
       return out;
     };
-    std::map<std::pair<PartIndex, PartIndex>, ContactRegion> inherited;
+    Regions inherited;
     for (const auto& [pair, region] : regions) {
       for (const PartIndex a : nodes(pair.first)) {
         for (const PartIndex b : nodes(pair.second)) {

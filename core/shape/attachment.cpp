@@ -42,10 +42,10 @@ void clip(Polygon& polygon, int axis, double sign, double limit) {
 }
 
 /// Adds what of the mesh lies in the inflated box, put onto the box itself.
-void clip_surface(const PartMesh& mesh, const Box& box, ContactRegion& region) {
-  const Vec3 reach = box.reach(contact_distance);
+void clip_surface(const PartMesh& mesh, const Box& box, double distance, ContactRegion& region) {
+  const Vec3 reach = box.reach(distance);
   const Vec3 low = box.centre - reach, high = box.centre + reach;
-  const Vec3 limit = (box.half.array() + contact_distance).matrix();
+  const Vec3 limit = (box.half.array() + distance).matrix();
   for (const Triangle& t : mesh.triangles) {
     const Vec3 &p0 = mesh.positions[t[0]], &p1 = mesh.positions[t[1]], &p2 = mesh.positions[t[2]];
     if ((p0.cwiseMin(p1).cwiseMin(p2).array() > high.array()).any()) continue;
@@ -142,14 +142,14 @@ Vec3 ContactRegion::mean() const {
   return sum / static_cast<double>(vertices.size());
 }
 
-ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const PartMesh& b, const Hexahedron& box_b) {
+ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const PartMesh& b, const Hexahedron& box_b,
+                             double distance) {
   const Box first(box_a), second(box_b);
   ContactRegion region;
-  const Vec3 gap =
-      (first.centre - second.centre).cwiseAbs() - first.reach(contact_distance) - second.reach(contact_distance);
+  const Vec3 gap = (first.centre - second.centre).cwiseAbs() - first.reach(distance) - second.reach(distance);
   if (gap.maxCoeff() > 0) return region;
-  clip_surface(a, second, region);
-  clip_surface(b, first, region);
+  clip_surface(a, second, distance, region);
+  clip_surface(b, first, distance, region);
   return region;
 }
 

@@ -28,6 +28,9 @@ namespace parsel {
 /// neighbours that do not touch stay apart.
 inline constexpr double contact_distance = 0.01;
 
+/// What then still hangs apart is tried again with this: some legs end short of the top they carry.
+inline constexpr double far_contact_distance = 0.02;
+
 /// Real models are sloppy: what lies this near a part's own symmetry plane or face counts as on it. A thin part's
 /// tolerance is a quarter of its half extent.
 inline constexpr double snap_distance = 0.01;
@@ -42,10 +45,11 @@ struct ContactRegion {
   Vec3 mean() const;
 };
 
-/// What of either surface lies in the other's inflated box; empty when the parts do not meet.
-ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const PartMesh& b, const Hexahedron& box_b);
+/// What of either surface lies in the other's box inflated by `distance`; empty when the parts do not meet.
+ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const PartMesh& b, const Hexahedron& box_b,
+                             double distance = contact_distance);
 
-/// Whether all of `inner` lies in the inflated `outer`.
+/// Whether all of `inner` lies in `outer` inflated by contact_distance.
 bool contains(const Hexahedron& outer, const Hexahedron& inner);
 
 struct FoundAttachment {

@@ -41,9 +41,8 @@ Result<Run> find_run(const GltfDocument& document, int accessor, int view_index,
     return damaged(accessor,
                    "its " + std::to_string(count) + " elements reach beyond bufferView " + std::to_string(view_index));
   }
-  return Run{buffer.bytes.substr(view.byteOffset + std::min<std::size_t>(offset, view.byteLength),
-                                 view.byteLength - std::min<std::size_t>(offset, view.byteLength)),
-             stride};
+  const std::size_t start = std::min<std::size_t>(offset, view.byteLength);
+  return Run{buffer.bytes.substr(view.byteOffset + start, view.byteLength - start), static_cast<std::size_t>(stride)};
 }
 
 template <class T>

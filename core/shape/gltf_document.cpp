@@ -37,15 +37,16 @@ Result<Container> split_container(std::string_view bytes) {
   const std::uint32_t version = little_endian(bytes, 4);
   if (version != 2)
     return refused("GLB header", "version " + std::to_string(version) + " is not 2", "export it as glTF 2.0");
-  const std::uint64_t length = little_endian(bytes, 8);
+  const std::size_t length = little_endian(bytes, 8);
   if (length > bytes.size()) {
     return refused("GLB header",
                    "it promises " + std::to_string(length) + " bytes, the file has " + std::to_string(bytes.size()));
   }
+  if (length < 20) return refused("GLB header", "it promises too few bytes");
   Container container;
   bool has_json = false;
-  for (std::uint64_t at = 12; at + 8 <= length;) {
-    const std::uint64_t size = little_endian(bytes, at);
+  for (std::size_t at = 12; length - at >= 8;) {
+    const std::size_t size = little_endian(bytes, at);
     const std::uint32_t type = little_endian(bytes, at + 4);
     if (size > length - at - 8) return refused("GLB chunk at byte " + std::to_string(at), "it reaches beyond the file");
     const std::string_view chunk = bytes.substr(at + 8, size);
@@ -336,7 +337,7 @@ Result<GltfBuffer> read_buffer(const json& entry, std::size_t index, const Conta
     return refused(place,
                    "it promises " + std::to_string(promised) + " bytes and has " + std::to_string(buffer.bytes.size()));
   }
-  buffer.bytes = buffer.bytes.substr(0, promised);
+  buffer.bytes = buffer.bytes.substr(0, static_cast<std::size_t>(promised));
   return buffer;
 }
 

@@ -221,6 +221,7 @@ class SymmetryFinder {
     bool taken = false;
     for (const Parts& line : lines) {
       if (!std::all_of(line.begin(), line.end(), [&](PartIndex p) { return is_free(p); })) continue;
+      if (is_diagonal(line) && is_crossed(line, lines)) continue;
       const Vec3 delta =
           (congruence_.centre(line.back()) - congruence_.centre(line.front())) / static_cast<double>(line.size() - 1);
       SymmetryGroup group;
@@ -231,6 +232,21 @@ class SymmetryFinder {
       taken = true;
     }
     return taken;
+  }
+
+  bool is_diagonal(const Parts& line) const {
+    const Vec3 way = congruence_.centre(line.back()) - congruence_.centre(line.front());
+    return (way.cwiseAbs().array() > options_.position).count() > 1;
+  }
+
+  static bool is_crossed(const Parts& line, const std::vector<Parts>& lines) {
+    const auto shares = [&](const Parts& other) {
+      const auto common = std::count_if(line.begin(), line.end(), [&](PartIndex p) {
+        return std::find(other.begin(), other.end(), p) != other.end();
+      });
+      return common == 1;  // more would be the same line with other steps
+    };
+    return std::any_of(lines.begin(), lines.end(), shares);
   }
 
   double spacing(const Parts& line) const { return (congruence_.centre(line[1]) - congruence_.centre(line[0])).norm(); }
@@ -258,6 +274,17 @@ class SymmetryFinder {
     return out;
   }
 
+  /// Whether every part is within tolerance of equal steps between the first and the last.
+  bool is_even(const Parts& line) const {
+    const Vec3 start = congruence_.centre(line.front());
+    const Vec3 step = (congruence_.centre(line.back()) - start) / static_cast<double>(line.size() - 1);
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      const Vec3 expected = start + static_cast<double>(k) * step;
+      if ((congruence_.centre(line[k]) - expected).norm() > options_.position) return false;
+    }
+    return true;
+  }
+
   /// The parts at equal distances from `start` on, when nothing comes before it and the line runs from the smaller
   /// coordinate to the larger, so that each line is found once and always the same way round.
   Parts line_from(const Parts& free, PartIndex start, PartIndex next) const {
@@ -265,7 +292,8 @@ class SymmetryFinder {
     int axis = 0;
     delta.cwiseAbs().maxCoeff(&axis);
     if (delta[axis] < 0) return {};
-    const double slack = std::min(options_.position, 0.15 * delta.norm());
+    // A single step may be off by the errors of two parts; the line as a whole is held to one.
+    const double slack = std::min(2 * options_.position, 0.15 * delta.norm());
     const auto at = [&](const Vec3& where) -> std::optional<PartIndex> {
       std::optional<PartIndex> best;
       double best_distance = slack;
@@ -279,12 +307,7 @@ class SymmetryFinder {
     Parts line = {start, next};
     // Each step starts from the last part found, so that small errors do not add up along a long line.
     while (const auto more = at(congruence_.centre(line.back()) + delta)) line.push_back(*more);
-    const Vec3 step =
-        (congruence_.centre(line.back()) - congruence_.centre(start)) / static_cast<double>(line.size() - 1);
-    for (std::size_t k = 0; k < line.size(); ++k) {
-      const Vec3 expected = congruence_.centre(start) + static_cast<double>(k) * step;
-      if ((congruence_.centre(line[k]) - expected).norm() > options_.position) return {};
-    }
+    while (line.size() > 2 && !is_even(line)) line.pop_back();
     return line;
   }
 

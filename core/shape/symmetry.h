@@ -9,7 +9,9 @@
 //      Four parts are a rotation only when they point along the radius (the blades of a fan, the feet of a star base)
 //      or when they are not mirror images of each other; four legs at the corners of a table, or four rails along its
 //      edges, are reflections, because widening the table keeps those and breaks a rotation.
-//   2. Translation: at least three congruent parts at equal distances on a line; the longest line first.
+//   2. Translation: at least three congruent parts at equal distances on a line; the longest line first. A line that is
+//      not along a global axis (a stair, a leaning ladder) counts only when no other line crosses it: five legs, one of
+//      them in the middle, are no two diagonals.
 //      A part is in at most one translation or rotation group; there are no groups of groups.
 //   3. Reflection about planes x, y or z = constant, pair by pair. For each set of congruent parts and each axis at
 //   most

@@ -32,7 +32,7 @@ export interface CheckedProgram {
 }
 
 /** Evaluated interval nodes that all amounts of a program may take together: about half a second. */
-const domainBudget = 10_000_000;
+const domainBudget = 2_000_000;
 
 /**
  * Checks untrusted JSON against the format and a shape. Refused are: unknown formats, versions, keys, operators, parts

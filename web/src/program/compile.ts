@@ -3,7 +3,7 @@
 //
 // Per frame: all amounts (they depend on the parameters alone), then layer by layer the references that can have moved,
 // then the layer's statements. Not kept: a copy of the state after each layer, to start from the layer whose slider
-// moves. At 100 parts and 200 statements a whole evaluation takes less than a tenth of the half millisecond there is.
+// moves. At 100 parts and 200 statements a whole evaluation takes about 0.05 ms of the half millisecond there is.
 import type { CheckedProgram } from './check';
 import { type CompiledAmounts, compileAmounts } from './compile_amounts';
 import { writeAxis } from './compile_cage';

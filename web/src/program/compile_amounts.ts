@@ -92,7 +92,10 @@ export function compileAmounts(
   };
 }
 
-/** Fills s[t] from s[a] and s[b]. What is undefined or overflows is NaN, and NaN stays NaN. */
+/**
+ * Fills s[t] from s[a] and s[b]. What is undefined or overflows is NaN, and NaN stays NaN: x − x is 0 for finite x only,
+ * so x + (x − x) is x or NaN.
+ */
 function closure(node: Node, t: number, s: Float64Array): () => void {
   const { op, left: a, right: b, value } = node;
   switch (op) {
@@ -105,7 +108,7 @@ function closure(node: Node, t: number, s: Float64Array): () => void {
     case 'finite':
       return () => {
         const x = s[a] as number;
-        s[t] = Number.isFinite(x) ? x : 0;
+        s[t] = x - x === 0 ? x : 0;
       };
     case 'negate':
       return () => {
@@ -114,30 +117,30 @@ function closure(node: Node, t: number, s: Float64Array): () => void {
     case '+':
       return () => {
         const x = (s[a] as number) + (s[b] as number);
-        s[t] = Number.isFinite(x) ? x : Number.NaN;
+        s[t] = x + (x - x);
       };
     case '-':
       return () => {
         const x = (s[a] as number) - (s[b] as number);
-        s[t] = Number.isFinite(x) ? x : Number.NaN;
+        s[t] = x + (x - x);
       };
     case '*':
       return () => {
         const x = (s[a] as number) * (s[b] as number);
-        s[t] = Number.isFinite(x) ? x : Number.NaN;
+        s[t] = x + (x - x);
       };
     case '/':
       return () => {
         const x = (s[a] as number) / (s[b] as number);
-        s[t] = Number.isFinite(x) ? x : Number.NaN;
+        s[t] = x + (x - x);
       };
     case '^':
       return () => {
         let base = s[a] as number;
         const exponent = s[b] as number;
-        if (base < 0 && base >= -noise && !Number.isInteger(exponent)) base = 0;
+        if (base < 0 && base >= -noise && Math.floor(exponent) !== exponent) base = 0;
         const x = base ** exponent;
-        s[t] = Number.isFinite(x) && !Number.isNaN(base) ? x : Number.NaN;
+        s[t] = x + (x - x) + (base - base);
       };
     case 'sqrt':
       return () => {

@@ -1,6 +1,6 @@
 // Translation and rotation groups on flat arrays: what the operators of a group, of its parent and of its members do to
 // its instances. The semantics are those of core/edit/evaluate.h. ParSEL supplement §3.2 (top-down and bottom-up modes).
-import { carryPoint, writeAxis } from './compile_cage';
+import { CageMotion, writeAxis } from './compile_cage';
 import { applyMap } from './compile_operators';
 import { type Anchor, type GroupRelation, maxInstances } from './types';
 
@@ -43,7 +43,7 @@ export class CompiledGroup implements GroupView {
   /** Rotation: 1 when the axis at rest points along the parent's own, else -1. */
   private readonly axisSign: number;
   private readonly template = new Float64Array(24);
-  private readonly before = new Float64Array(24);
+  private readonly cage = new CageMotion();
   /** Vectors in use by one operation: the step (0 … 2), another (3 … 5), a third (6 … 8). */
   private readonly scratch = new Float64Array(9);
 
@@ -96,14 +96,15 @@ export class CompiledGroup implements GroupView {
   moveParent(map: Float64Array, mask: number): void {
     const parentAt = this.layout.parent * 24;
     const carried = this.relation.kind === 'translation' ? 2 : 1;
-    for (let i = 0; i < 24; ++i) this.before[i] = this.corners[parentAt + i] as number;
+    this.cage.begin(this.corners, parentAt);
     applyMap(map, this.corners, parentAt, 8, mask);
     if (mask === 0xff) {
       applyMap(map, this.instances, 0, 8 * this.count, mask);
       applyMap(map, this.points, 0, carried, mask);
     } else {
-      for (let i = 0; i < 8 * this.count; ++i) carryPoint(this.instances, 3 * i, this.before, this.corners, parentAt);
-      for (let i = 0; i < carried; ++i) carryPoint(this.points, 3 * i, this.before, this.corners, parentAt);
+      this.cage.end(this.corners, parentAt);
+      for (let i = 0; i < 8 * this.count; ++i) this.cage.carry(this.instances, 3 * i);
+      for (let i = 0; i < carried; ++i) this.cage.carry(this.points, 3 * i);
     }
     if (this.relation.kind === 'rotation') this.refitRing(this.relation.parent_axis);
   }

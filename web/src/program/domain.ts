@@ -24,7 +24,7 @@ export const maxMagnitude = 1e6;
 
 /** Arguments of sqrt and bases of powers this little below 0 are rounding noise and count as 0. */
 const noise = 1e-12;
-const nodesPerAmount = 60_000;
+const boxesPerAmount = 256;
 /** Boxes narrower than this share of the range are not halved further. */
 const narrowest = 1e-9;
 
@@ -49,11 +49,7 @@ export function findDomainFault(
 ): DomainFault | null {
   const names = [...parametersOf(expression)].sort();
   const whole = new Map(names.map((name) => [name, ranges.get(name) ?? { min: 0, max: 0 }]));
-  const local = { nodes: Math.min(nodesPerAmount, budget.nodes) };
-  const granted = local.nodes;
-  const fault = search(expression, whole, local, magnitude);
-  budget.nodes -= granted - local.nodes;
-  return fault;
+  return search(expression, whole, budget, magnitude);
 }
 
 /** The names of the parameters that occur. */
@@ -88,7 +84,9 @@ function search(expression: Expression, whole: Box, budget: DomainBudget, magnit
     if (fault) return fault;
   }
   const queue: Box[] = [whole];
-  for (let next = queue.shift(); next && budget.nodes > 0; next = queue.shift()) {
+  for (let boxes = 0; boxes < boxesPerAmount && budget.nodes > 0; ++boxes) {
+    const next = queue.shift();
+    if (!next) break;
     const value = bound(expression, next, budget);
     const wide = Math.max(-value.low, value.high) > magnitude;
     if (!value.trouble && !wide) continue;

@@ -49,6 +49,8 @@ export interface ShapePart {
   readonly virtual: boolean;
   /** Ids of the instances of a virtual part, in the group's order. */
   readonly members: readonly string[];
+  /** Id of the translation or rotation relation that the part is an instance of or, virtual, stands for. */
+  readonly group?: string;
 }
 
 interface RelationBase {
@@ -59,6 +61,8 @@ export interface ReflectionRelation extends RelationBase {
   readonly kind: 'reflection';
   readonly origin: Vec3;
   readonly normal: Vec3;
+  /** Corner k of the second part is the mirror image of corner corner_map[k] of the first. */
+  readonly corner_map: readonly number[];
 }
 /** Instances at equal distances; start and end are the centres of the first and the last. */
 export interface TranslationRelation extends RelationBase {
@@ -82,6 +86,9 @@ export interface RotationRelation extends RelationBase {
 export interface AttachmentRelation extends RelationBase {
   readonly kind: 'point' | 'line' | 'face' | 'volume';
   readonly points: readonly Vec3[];
+  /** The same points in local coordinates of the first and of the second part. */
+  readonly local_a: readonly Vec3[];
+  readonly local_b: readonly Vec3[];
 }
 export type GroupRelation = TranslationRelation | RotationRelation;
 export type ShapeRelation = ReflectionRelation | GroupRelation | AttachmentRelation;

@@ -17,11 +17,16 @@ export const methodSchemas = {
     parameters: v.strictObject({ equation: v.string(), unknown: v.string() }),
     result: v.strictObject({ solutions: v.array(v.string()) }),
   },
-  /** Reads and abstracts a model. Buffers: the file, then what it refers to, in the order of `external`. */
+  /**
+   * Opens a model: buffers are the file and then its external buffers, in the order of their names in `external`. The
+   * shape is `parsel/shape` v1. Sets the core's state: call it with a `state` of its own.
+   */
   open: {
     parameters: v.strictObject({ name: v.string(), external: v.array(v.string()) }),
-    result: v.strictObject({ shape: v.unknown() }),
+    result: v.strictObject({ shape: v.looseObject({ format: v.literal('parsel/shape'), version: v.literal(1) }) }),
   },
+  /** Bytes of the core's memory. It never shrinks, so this is its peak as well. */
+  memory: { parameters: v.strictObject({}), result: v.strictObject({ bytes: v.number() }) },
   /** `parsel/edit` v1 to a `parsel/program` v1 of one layer, and how it was found. */
   propagate: {
     parameters: v.strictObject({ edit: v.unknown() }),
