@@ -102,6 +102,11 @@ export class Stage {
     this.invalidate();
   }
 
+  /** Whether a model has been drawn. */
+  isShown(): boolean {
+    return this.#actor !== null && this.#renderer.info.render.frame > 0;
+  }
+
   /** One step of a slider: corners are uploaded, nothing else. */
   update(evaluator: Evaluator): void {
     if (this.#actor === null) return;
@@ -135,10 +140,13 @@ export class Stage {
     return this.#picker.pick(this.rig.camera, this.#actor.view, x - left, y - top);
   }
 
-  /** Where a point of the shape is on screen, CSS pixels in the window. */
-  project(point: three.Vector3): { x: number; y: number } {
+  /** Where the mean of some points of the shape is on screen, CSS pixels in the window. */
+  projectMean(points: ArrayLike<number>): { x: number; y: number } {
+    const mean = new three.Vector3();
+    const count = points.length / 3;
+    for (let i = 0; i < count; i++) mean.add(corner.fromArray(points, 3 * i));
     const { left, top, width, height } = this.canvas.getBoundingClientRect();
-    const { x, y } = point.clone().project(this.rig.camera);
+    const { x, y } = mean.divideScalar(count).project(this.rig.camera);
     return { x: left + ((x + 1) / 2) * width, y: top + ((1 - y) / 2) * height };
   }
 

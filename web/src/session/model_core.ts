@@ -40,7 +40,7 @@ export function modelCore(client: CoreClient): ModelCore {
       { ...options, buffers, state: 'model' },
     );
     opened = files;
-    return result.shape as Shape;
+    return result.shape as unknown as Shape;
   };
   const hold = async (files: ModelFiles, options: Options) => {
     if (opened !== files) await open(files, options);

@@ -128,7 +128,10 @@ export function setValue(key: number, value: number): void {
 
 // ------------------------------------------------------------------------------------------------------------ layers
 
-export const titleOf = (layer: Layer): string => layer.request || 'Edit';
+/** With a capital, however it was typed. */
+export function titleOf({ request }: Layer): string {
+  return request === '' ? 'Edit' : request.charAt(0).toUpperCase() + request.slice(1);
+}
 
 const replace = (layers: readonly LayerEntry[], key: number, change: Partial<LayerEntry>) =>
   layers.map((entry) => (entry.key === key ? { ...entry, ...change } : entry));

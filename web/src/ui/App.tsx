@@ -45,7 +45,7 @@ export function App() {
 
   if (isEmbedded) return <Embedded />;
   const insets: Insets = isPhone.value
-    ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) : 96 }
+    ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 44 : 104 }
     : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 56 };
   const edits = <EditsPanel pickKind={pickKind} />;
   return (

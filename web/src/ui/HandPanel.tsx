@@ -1,6 +1,7 @@
 // An edit by hand: a part or one of its faces, edges and corners, an operator, what the others should do, and which
 // relations may give way. Propagation finds the rest and leaves a layer with a slider.
 import { type Signal, useSignal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
 import type { LocalTriple, Statement, Vec3 } from '../program/types';
 import { isGroup, type Shape } from '../program/types';
 import { models } from '../session/core';
@@ -32,6 +33,8 @@ const axes: readonly Vec3[] = [
 
 /** Which kind of feature a click in the view selects while this panel is open; null when it is closed. */
 export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind | null>; onDone: () => void }) {
+  const form = useRef<HTMLFormElement>(null);
+  useEffect(() => form.current?.scrollIntoView({ block: 'nearest' }), []);
   const operator = useSignal<Operator>('translate');
   const axis = useSignal(0);
   const origin = useSignal<LocalTriple>([0, 0, 0]);
@@ -68,6 +71,7 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
 
   return (
     <form
+      ref={form}
       class="hand"
       aria-label="Edit by hand"
       onSubmit={(event) => {

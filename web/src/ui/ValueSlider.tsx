@@ -60,8 +60,11 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
       {measure && (
         <p class="measure">
           <span class="quiet">{measureName(measure)}</span>
-          <span class="from">{formatMeasure(measure.what, rest, Math.max(rest, now))}</span>
-          <span aria-hidden="true">→</span>
+          {value !== 0 && (
+            <span class="from">
+              {formatMeasure(measure.what, rest, Math.max(rest, now))} <span aria-hidden="true">→</span>
+            </span>
+          )}
           <TypedValue entry={entry} measure={measure} now={now} rest={rest} />
         </p>
       )}
