@@ -202,7 +202,6 @@ export function program(shape: Shape): Program {
           amount: 'x1',
           why,
         },
-        { op: 'translate', part: 'seat', feature: [1, 1, 0], direction: [0, 1, 0], amount: 'x1/2' },
       ]),
       layer('tilt a leg', 'x2', -0.6, 0.6, [
         {
@@ -223,6 +222,7 @@ export function program(shape: Shape): Program {
           direction: [0, 0, 1],
           amount: 'x2',
         },
+        { op: 'translate', part: 'seat', feature: [1, 1, 0], direction: [0, 1, 0], amount: 'x2^2/2' },
       ]),
       layer('more slats', 'x3', -4, 40, [
         { op: 'change_count', relation: group.id, anchor: 'middle', amount: 'x3', why },

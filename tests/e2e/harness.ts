@@ -117,7 +117,6 @@ export async function openModel(
   const { search = '?debug', name = 'stool.glb', ...rest } = options;
   const watched = await openPage(browser, `${url}${search}`, rest, withoutGallery);
   await pick(watched.page, [{ name, mimeType: 'model/gltf-binary', buffer: model }]);
-  await watched.page.locator('.part').first().waitFor();
   await watched.page.waitForFunction(() => parsel.stage()?.isShown());
   return watched;
 }
@@ -141,7 +140,7 @@ async function expectEnabled(locator: Locator): Promise<void> {
 export async function stillPicture(page: Page): Promise<Buffer> {
   let last = await page.locator('canvas').screenshot();
   for (let i = 0; i < 50; i++) {
-    await page.waitForTimeout(150);
+    await page.waitForFunction(() => parsel.stage()?.isStill());
     const next = await page.locator('canvas').screenshot();
     if (next.equals(last)) return next;
     last = next;

@@ -126,7 +126,12 @@ describe('what cannot be opened', () => {
     const gltf = stoolGltf();
     return toGlb({ ...gltf, json: { ...gltf.json, extensionsUsed: [extension], extensionsRequired: [extension] } });
   };
-  const bomb = () => Buffer.from(zipSync({ 'bomb.glb': Buffer.alloc(600 * 2 ** 20) }, { level: 9 }));
+  /** Says of itself that it grows to 600 MiB: the size in the archive's directory, which begins with this signature. */
+  const bomb = () => {
+    const zip = Buffer.from(zipSync({ 'bomb.glb': Buffer.alloc(1000) }));
+    zip.writeUInt32LE(600 * 2 ** 20, zip.indexOf('PK\x01\x02', 0, 'latin1') + 24);
+    return zip;
+  };
 
   it.each<[string, string, () => Buffer, RegExp]>([
     ['a file of another kind', 'notes.txt', () => Buffer.from('hello'), /\.txt cannot be opened here\. Open a \.glb/],

@@ -107,6 +107,11 @@ export class Stage {
     return this.#actor !== null && this.#renderer.info.render.frame > 0;
   }
 
+  /** Whether all that has changed has been drawn. */
+  isStill(): boolean {
+    return this.#frame === 0;
+  }
+
   /** One step of a slider: corners are uploaded, nothing else. */
   update(evaluator: Evaluator): void {
     if (this.#actor === null) return;
@@ -115,9 +120,10 @@ export class Stage {
     overlays.update(evaluator.corners);
     const bounds = shapeBounds(view.shape, evaluator);
     this.#ground.position.y = bounds.min.y;
-    const reach = bounds.getBoundingSphere(sphere).radius * 1.3;
+    // In steps, so that the shadow's grain stays while a slider moves a little.
+    const reach = 2 ** (Math.ceil(2 * Math.log2(bounds.getBoundingSphere(sphere).radius * 1.2)) / 2);
     const { camera } = this.#sun.shadow;
-    if (reach > camera.right || reach < camera.right / 2) {
+    if (reach !== camera.right) {
       Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1, far: 12 });
       camera.updateProjectionMatrix();
     }

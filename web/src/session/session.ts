@@ -3,7 +3,6 @@ import { batch, computed, effect, type ReadonlySignal, signal } from '@preact/si
 import { checkProgram } from '../program/check';
 import { compileProgram, type Evaluator } from '../program/compile';
 import { errorMessage, type Layer, type LocalTriple, type Program } from '../program/types';
-import { CoreError } from '../worker/client';
 import {
   type Document,
   type EditInput,
@@ -15,6 +14,7 @@ import {
   wholePart,
   withFreshParameters,
 } from './document';
+import { FileError } from './files';
 import { History } from './history';
 import type { ModelCore } from './model_core';
 
@@ -268,7 +268,8 @@ export async function run<T>(
 
 function sentence(error: unknown): string {
   const text = error instanceof Error ? error.message : String(error);
-  const whole = error instanceof CoreError ? text : text || 'Something went wrong.';
+  if (error instanceof FileError) return text;
+  const whole = text || 'something went wrong';
   const capital = whole.charAt(0).toUpperCase() + whole.slice(1);
   return /[.!?]$/.test(capital) ? capital : `${capital}.`;
 }

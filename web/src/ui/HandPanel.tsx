@@ -129,6 +129,7 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
         <label>
           <span>{operator.value === 'rotate' ? 'About' : operator.value === 'scale_2d' ? 'Across' : 'Along'}</span>
           <select
+            aria-label="Direction"
             value={axis.value}
             onChange={(event) => {
               axis.value = Number(event.currentTarget.value);
