@@ -6,7 +6,15 @@ import { createServer, type Server } from 'node:http';
 import type { AddressInfo } from 'node:net';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { type Browser, type BrowserContextOptions, chromium, type Page } from 'playwright-core';
+import {
+  type Browser,
+  type BrowserContext,
+  type BrowserContextOptions,
+  chromium,
+  type Locator,
+  type Page,
+} from 'playwright-core';
+import type { DebugHandle } from '../../web/src/ui/debug';
 
 const dist = fileURLToPath(new URL('../../web/dist', import.meta.url));
 export const outputFolder = fileURLToPath(new URL('../output', import.meta.url));
@@ -34,7 +42,9 @@ export async function serve(): Promise<{ url: string; server: Server }> {
       const bytes = await readFile(join(dist, relative));
       response.writeHead(200, { 'Content-Type': types[extname(relative)] ?? 'application/octet-stream' }).end(bytes);
     } catch {
-      response.writeHead(404).end();
+      // A page that was built without a gallery has an empty one.
+      if (relative === 'gallery/gallery.json') response.writeHead(200, { 'Content-Type': types['.json'] }).end('[]');
+      else response.writeHead(404).end();
     }
   });
   await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
@@ -74,8 +84,10 @@ export async function openPage(
   browser: Browser,
   url: string,
   options: BrowserContextOptions = {},
+  prepare: (context: BrowserContext) => Promise<unknown> = async () => {},
 ): Promise<WatchedPage> {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+  await prepare(context);
   const page = await context.newPage();
   const complaints: string[] = [];
   page.on('pageerror', (error) => complaints.push(`page error: ${error.message}`));
@@ -91,4 +103,47 @@ export async function openPage(
   });
   await page.goto(url);
   return { page, complaints };
+}
+
+declare const parsel: DebugHandle;
+
+/** The page with `?debug`, empty, with a model opened by the file picker. */
+export async function openModel(
+  browser: Browser,
+  url: string,
+  model: Buffer,
+  options: BrowserContextOptions & { search?: string; name?: string } = {},
+): Promise<WatchedPage> {
+  const { search = '?debug', name = 'stool.glb', ...rest } = options;
+  const watched = await openPage(browser, `${url}${search}`, rest, withoutGallery);
+  await pick(watched.page, [{ name, mimeType: 'model/gltf-binary', buffer: model }]);
+  await watched.page.waitForFunction(() => parsel.stage()?.isShown());
+  return watched;
+}
+
+/** No gallery, so that the page starts empty. */
+export const withoutGallery = (context: BrowserContext): Promise<unknown> =>
+  context.route('**/gallery/gallery.json', (route) => route.fulfill({ json: [] }));
+
+export async function pick(page: Page, files: { name: string; mimeType: string; buffer: Buffer }[]): Promise<void> {
+  await page.locator('.bar .model').click();
+  const input = page.getByLabel('Open files');
+  await expectEnabled(input);
+  await input.setInputFiles(files);
+}
+
+async function expectEnabled(locator: Locator): Promise<void> {
+  await locator.and(locator.page().locator(':enabled')).waitFor({ state: 'attached' });
+}
+
+/** The canvas once nothing moves any more. */
+export async function stillPicture(page: Page): Promise<Buffer> {
+  let last = await page.locator('canvas').screenshot();
+  for (let i = 0; i < 50; i++) {
+    await page.waitForFunction(() => parsel.stage()?.isStill());
+    const next = await page.locator('canvas').screenshot();
+    if (next.equals(last)) return next;
+    last = next;
+  }
+  throw new Error('the picture never came to rest');
 }

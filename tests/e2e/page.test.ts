@@ -1,7 +1,10 @@
 import type { Server } from 'node:http';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { launch, openPage, outputFolder, serve } from './harness';
+import type { DebugHandle } from '../../web/src/ui/debug';
+import { launch, openPage, serve, withoutGallery } from './harness';
+
+declare const parsel: DebugHandle;
 
 let url: string;
 let server: Server;
@@ -16,27 +19,11 @@ afterAll(async () => {
 });
 
 describe('the page', () => {
-  it('solves in the worker, evaluates in a closure and moves the scene, under its policy', async () => {
-    const { page, complaints } = await openPage(browser, url);
-    await page.getByTestId('solution').waitFor();
-    expect(await page.getByRole('status').textContent()).toMatch(/core \d+\.\d+\.\d+, ready/);
-
-    const shown = async () => Number.parseFloat((await page.getByTestId('angle').textContent()) ?? '');
-    const slider = page.getByRole('slider');
-    for (const x of [-0.35, 0, 0.2, 0.35]) {
-      await slider.fill(String(x));
-      expect(await shown()).toBeCloseTo((Math.acos(0.6 + x) * 180) / Math.PI, 1);
-    }
-
-    const canvas = page.locator('canvas');
-    await slider.fill('-0.35');
-    const steep = await canvas.screenshot();
-    await slider.fill('0.35');
-    const flat = await canvas.screenshot({ path: `${outputFolder}/page.png` });
-    expect(steep.equals(flat)).toBe(false);
-    await slider.focus();
-    await page.keyboard.press('Home');
-    expect(await slider.inputValue()).toBe('-0.35');
+  it('starts empty and says what to do when there is nothing to open', async () => {
+    const { page, complaints } = await openPage(browser, `${url}?debug`, {}, withoutGallery);
+    await page.waitForFunction(() => 'parsel' in globalThis && parsel.isReady());
+    expect(await page.locator('main').textContent()).toMatch(/Edits appear here/);
+    expect(await page.locator('.bar .model').textContent()).toBe('Open a model');
     expect(complaints).toEqual([]);
   });
 

@@ -1,7 +1,7 @@
 import { render } from 'preact';
 import { start } from './session/core';
-import { exposeForDebugging } from './session/debug';
 import { App } from './ui/App';
+import { exposeForDebugging } from './ui/debug';
 import { detectSupport, missingSupport } from './ui/support';
 
 const root = document.getElementById('app');

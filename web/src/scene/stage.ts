@@ -1,68 +1,258 @@
-// The three.js scene: a plank that leans on the ground, drawn whenever something changed.
+// The scene around the model: light, ground, camera, overlays; drawn when something has changed, and only then.
 import * as three from 'three';
+import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js';
+import type { Evaluator } from '../program/compile';
+import type { Shape } from '../program/types';
+import { CameraRig, type Insets } from './camera';
+import type { LoadedModel } from './load';
+import { ModelView } from './model_view';
+import { Overlays } from './overlays';
+import { type Hit, Picker } from './picking';
 
-export interface Stage {
-  /** Turns the plank about its foot; radians from the ground. */
-  setAngle(radians: number): void;
-  dispose(): void;
+/** A model on the stage. */
+export interface Actor {
+  readonly view: ModelView;
+  readonly overlays: Overlays;
 }
 
-/** @param canvas fills its parent; the stage follows its size and the system's light or dark. */
-export function createStage(canvas: HTMLCanvasElement): Stage {
-  const renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
-  renderer.shadowMap.enabled = true;
-  const scene = new three.Scene();
-  const camera = new three.PerspectiveCamera(35, 1, 0.1, 50);
-  camera.position.set(1.9, 1.35, 3.2);
-  camera.lookAt(0, 0.45, 0);
+export class Stage {
+  readonly rig: CameraRig;
+  readonly #renderer: three.WebGLRenderer;
+  readonly #scene = new three.Scene();
+  readonly #sun = new three.DirectionalLight(0xffffff, 1.9);
+  readonly #ground: three.Mesh;
+  readonly #picker: Picker;
+  readonly #observer: ResizeObserver;
+  readonly #clock = new three.Timer();
+  #insets: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
+  #frame = 0;
+  #hasMetal = false;
+  #actor: Actor | null = null;
+  #accent = '#2361cf';
+  #quiet = '#5a5f66';
+  /** Reports the loss of the graphics context, and that it is back. */
+  onContext: (lost: boolean) => void = () => {};
 
-  const sun = new three.DirectionalLight(0xffffff, 2.4);
-  sun.position.set(2, 4, 3);
-  sun.castShadow = true;
-  sun.shadow.mapSize.set(1024, 1024);
-  sun.shadow.radius = 6;
-  scene.add(sun, new three.HemisphereLight(0xffffff, 0x888880, 1.6));
+  /** @param canvas fills its parent; the stage follows its size. */
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    reducedMotion: boolean,
+  ) {
+    const renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
+    renderer.setClearColor(0, 0);
+    renderer.toneMapping = three.NeutralToneMapping;
+    renderer.shadowMap.enabled = true;
+    renderer.shadowMap.type = three.PCFShadowMap;
+    this.#renderer = renderer;
+    this.#picker = new Picker(renderer);
+    this.rig = new CameraRig(canvas, reducedMotion);
+    this.rig.onChange(() => this.invalidate());
 
-  const ground = new three.Mesh(new three.PlaneGeometry(12, 12), new three.ShadowMaterial({ opacity: 0.22 }));
-  ground.rotation.x = -Math.PI / 2;
-  ground.receiveShadow = true;
-  const plank = new three.Mesh(
-    new three.BoxGeometry(1, 0.05, 0.28).translate(0.5, 0.025, 0),
-    new three.MeshStandardMaterial({ color: 0xc8945c, roughness: 0.7 }),
-  );
-  plank.castShadow = true;
-  plank.position.x = -0.5;
-  scene.add(ground, plank);
+    const sun = this.#sun;
+    sun.position.set(1.6, 3.4, 2.2);
+    sun.castShadow = true;
+    sun.shadow.mapSize.set(1024, 1024);
+    sun.shadow.radius = 5;
+    sun.shadow.bias = -0.0004;
+    sun.shadow.normalBias = 0.01;
+    this.#ground = new three.Mesh(new three.CircleGeometry(8, 48), new three.ShadowMaterial({ opacity: 0.2 }));
+    this.#ground.rotation.x = -Math.PI / 2;
+    this.#ground.receiveShadow = true;
+    const fill = new three.DirectionalLight(0xffffff, 0.5);
+    fill.position.set(-2.5, 1.2, 1.5);
+    this.#scene.add(sun, sun.target, fill, new three.HemisphereLight(0xffffff, 0xa8a49c, 1.7), this.#ground);
 
-  let frame = 0;
-  const draw = () => {
-    frame = 0;
-    renderer.render(scene, camera);
-  };
-  const invalidate = () => {
-    if (frame === 0) frame = requestAnimationFrame(draw);
-  };
-  const resize = () => {
-    const { clientWidth: width, clientHeight: height } = canvas;
-    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    renderer.setSize(width, height, false);
-    camera.aspect = width / Math.max(1, height);
-    camera.updateProjectionMatrix();
-    invalidate();
-  };
-  const observer = new ResizeObserver(resize);
-  observer.observe(canvas);
-  resize();
+    canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault(); // else it never comes back
+      this.onContext(true);
+    });
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.#reflect();
+      this.onContext(false);
+      this.invalidate();
+    });
+    this.#observer = new ResizeObserver(() => this.#resize());
+    this.#observer.observe(canvas);
+    this.#resize();
+  }
 
-  return {
-    setAngle(radians) {
-      plank.rotation.z = radians;
-      invalidate();
-    },
-    dispose() {
-      observer.disconnect();
-      cancelAnimationFrame(frame);
-      renderer.dispose();
-    },
+  /** Puts a model on the stage in place of the last one, which is disposed of. */
+  show(loaded: LoadedModel, shape: Shape): Actor {
+    this.clear();
+    const actor = { view: new ModelView(shape, loaded), overlays: new Overlays(shape) };
+    actor.overlays.setColours({ accent: this.#accent, quiet: this.#quiet });
+    this.#scene.add(actor.view.root, actor.view.extras, actor.overlays.root);
+    this.#actor = actor;
+    const materials = loaded.meshes.flatMap(({ mesh }) => mesh.material);
+    const isMetal = (material: three.Material) => (material as three.MeshStandardMaterial).metalness > 0.1;
+    if (!this.#hasMetal && materials.some(isMetal)) {
+      this.#hasMetal = true;
+      this.#reflect();
+    }
+    return actor;
+  }
+
+  clear(): void {
+    if (this.#actor === null) return;
+    const { view, overlays } = this.#actor;
+    this.#scene.remove(view.root, view.extras, overlays.root);
+    view.dispose();
+    overlays.dispose();
+    this.#actor = null;
+    this.invalidate();
+  }
+
+  /** Whether a model has been drawn. */
+  isShown(): boolean {
+    return this.#actor !== null && this.#renderer.info.render.frame > 0;
+  }
+
+  /** Whether all that has changed has been drawn. */
+  isStill(): boolean {
+    return this.#frame === 0;
+  }
+
+  /** One step of a slider: corners are uploaded, nothing else. */
+  update(evaluator: Evaluator): void {
+    if (this.#actor === null) return;
+    const { view, overlays } = this.#actor;
+    view.update(evaluator);
+    overlays.update(evaluator.corners);
+    const bounds = shapeBounds(view.shape, evaluator);
+    this.#ground.position.y = bounds.min.y;
+    // In steps, so that the shadow's grain stays while a slider moves a little.
+    const reach = 2 ** (Math.ceil(2 * Math.log2(bounds.getBoundingSphere(sphere).radius * 1.2)) / 2);
+    const { camera } = this.#sun.shadow;
+    if (reach !== camera.right) {
+      Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1, far: 12 });
+      camera.updateProjectionMatrix();
+    }
+    this.invalidate();
+  }
+
+  /** Brings the model, or one part, into view. */
+  fit(evaluator: Evaluator, part: number | null, animate = true): void {
+    if (this.#actor === null) return;
+    const box = part === null ? shapeBounds(this.#actor.view.shape, evaluator) : partBounds(evaluator.corners, part);
+    const bounds = box.getBoundingSphere(new three.Sphere());
+    if (part !== null) bounds.radius = Math.max(bounds.radius * 2, 0.2);
+    this.rig.fit(bounds, animate);
+  }
+
+  /** @param x,y CSS pixels in the window */
+  pick(x: number, y: number): Hit | null {
+    if (this.#actor === null || this.#renderer.getContext().isContextLost()) return null;
+    const { left, top } = this.canvas.getBoundingClientRect();
+    return this.#picker.pick(this.rig.camera, this.#actor.view, x - left, y - top);
+  }
+
+  /** Where the mean of some points of the shape is on screen, CSS pixels in the window. */
+  projectMean(points: ArrayLike<number>): { x: number; y: number } {
+    const mean = new three.Vector3();
+    const count = points.length / 3;
+    for (let i = 0; i < count; i++) mean.add(corner.fromArray(points, 3 * i));
+    const { left, top, width, height } = this.canvas.getBoundingClientRect();
+    const { x, y } = mean.divideScalar(count).project(this.rig.camera);
+    return { x: left + ((x + 1) / 2) * width, y: top + ((1 - y) / 2) * height };
+  }
+
+  setInsets(insets: Insets): void {
+    this.#insets = insets;
+    this.#resize();
+  }
+
+  setTheme({ accent, quiet, dark }: { accent: string; quiet: string; dark: boolean }): void {
+    this.#accent = accent;
+    this.#quiet = quiet;
+    this.#actor?.overlays.setColours({ accent, quiet });
+    (this.#ground.material as three.ShadowMaterial).opacity = dark ? 0.5 : 0.22;
+    this.invalidate();
+  }
+
+  /** The picture without overlays, on a transparent ground. */
+  async screenshot(): Promise<Blob> {
+    const overlays = this.#actor?.overlays.root;
+    if (overlays) overlays.visible = false;
+    this.#renderer.render(this.#scene, this.rig.camera);
+    if (overlays) overlays.visible = true;
+    this.invalidate();
+    return new Promise((resolve, reject) =>
+      this.canvas.toBlob(
+        (blob) => (blob ? resolve(blob) : reject(new Error('the browser made no picture'))),
+        'image/png',
+      ),
+    );
+  }
+
+  /** For tests: what the graphics card makes of a part. See readback.ts. */
+  async readVertices(part: number, what: 'positions' | 'normals'): Promise<Float32Array> {
+    const { readVertices } = await import('./readback');
+    return this.#actor === null ? new Float32Array(0) : readVertices(this.#renderer, this.#actor.view, part, what);
+  }
+
+  /** Draws at the next frame. */
+  invalidate(): void {
+    if (this.#frame === 0) this.#frame = requestAnimationFrame(this.#draw);
+  }
+
+  dispose(): void {
+    this.#observer.disconnect();
+    cancelAnimationFrame(this.#frame);
+    this.clear();
+    this.#picker.dispose();
+    this.rig.dispose();
+    this.#renderer.dispose();
+  }
+
+  readonly #draw = (time: number) => {
+    this.#frame = 0;
+    this.#clock.update(time);
+    const moving = this.rig.update(Math.min(this.#clock.getDelta(), 0.1));
+    this.#renderer.render(this.#scene, this.rig.camera);
+    if (moving) this.invalidate();
   };
+
+  /** A room for metals to mirror. Filtering it takes a software renderer seconds, so only models with metal get it. */
+  #reflect(): void {
+    if (!this.#hasMetal) return;
+    const generator = new three.PMREMGenerator(this.#renderer);
+    this.#scene.environment = generator.fromScene(new RoomEnvironment(), 0.04, 0.1, 100, { size: 64 }).texture;
+    this.#scene.environmentIntensity = 0.35;
+    generator.dispose();
+  }
+
+  #resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.#renderer.setSize(width, height, false);
+    this.rig.resize(width, height, this.#insets);
+    this.invalidate();
+  }
+}
+
+const sphere = new three.Sphere();
+const corner = new three.Vector3();
+const shapeBox = new three.Box3();
+
+/** Of all real parts and all instances. The box is reused by the next call. */
+export function shapeBounds(shape: Shape, { corners, groups }: Evaluator): three.Box3 {
+  shapeBox.makeEmpty();
+  for (let part = 0; part < shape.parts.length; part++) {
+    if (!shape.parts[part]?.virtual) expand(shapeBox, corners, part);
+  }
+  for (const group of groups) {
+    for (let i = 0; i < (group?.count ?? 0); i++) expand(shapeBox, group?.instances ?? [], i);
+  }
+  return shapeBox;
+}
+
+export function partBounds(corners: ArrayLike<number>, part: number): three.Box3 {
+  return expand(new three.Box3(), corners, part);
+}
+
+function expand(box: three.Box3, corners: ArrayLike<number>, part: number): three.Box3 {
+  for (let at = part * 24; at < part * 24 + 24; at += 3) {
+    box.expandByPoint(corner.set(corners[at] as number, corners[at + 1] as number, corners[at + 2] as number));
+  }
+  return box;
 }

@@ -1,7 +1,8 @@
 // The page's one core: started with the page, and what the page knows about it.
-import { signal } from '@preact/signals';
+import { computed, signal } from '@preact/signals';
 import wasmUrl from 'parsel-module/parsel.wasm?url';
 import { type CoreClient, startCore } from '../worker/client';
+import { type ModelCore, modelCore } from './model_core';
 
 export type CoreState =
   | { kind: 'starting' }
@@ -10,13 +11,23 @@ export type CoreState =
 
 export const core = signal<CoreState>({ kind: 'starting' });
 
+const client = computed(() => (core.value.kind === 'ready' ? core.value.client : null));
+
+/** Stands in for the core in tests of the page alone. */
+export const substitute = signal<ModelCore | null>(null);
+
+/** What the session asks; null until the core is ready. */
+export const models = computed<ModelCore | null>(
+  () => substitute.value ?? (client.value === null ? null : modelCore(client.value)),
+);
+
 /** Starts the core, or says in a sentence why it does not run. */
 export async function start(): Promise<void> {
   core.value = { kind: 'starting' };
   try {
-    const client = await startCore(wasmUrl);
-    const { result } = await client.call('version', {});
-    core.value = { kind: 'ready', version: result.version, client };
+    const started = await startCore(wasmUrl);
+    const { result } = await started.call('version', {});
+    core.value = { kind: 'ready', version: result.version, client: started };
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);
     core.value = { kind: 'failed', text: `The core could not be loaded (${reason}). Reload the page to try again.` };

@@ -1,35 +1,188 @@
-// The page: the stage, and the card of the one equation that runs through the whole chain.
+// The page: the stage fills the window, panels float on it.
 import { useSignal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
-import { createStage, type Stage } from '../scene/stage';
-import { core } from '../session/core';
-import { EquationCard } from './EquationCard';
+import type { ComponentChildren } from 'preact';
+import { useEffect } from 'preact/hooks';
+import type { Insets } from '../scene/camera';
+import { readDropped } from '../session/files';
+import { document } from '../session/session';
+import { dialog, openAny } from './actions';
+import { Dimensions } from './Dimensions';
+import { EditsPanel } from './EditsPanel';
+import { HelpDialog } from './HelpDialog';
+import { Icon } from './Icon';
+import { LayerCard } from './LayerCard';
+import { OpenDialog } from './OpenDialog';
+import { PartsPanel } from './PartsPanel';
+import { ShareDialog } from './ShareDialog';
+import { StageView } from './StageView';
+import { StatusLine } from './StatusLine';
+import { listenForShortcuts } from './shortcuts';
+import { TopBar } from './TopBar';
+import { isEmbedded, welcome } from './welcome';
+import type { FeatureKind } from './words';
+
+const phone = matchMedia('(max-width: 720px)');
 
 export function App() {
-  const canvas = useRef<HTMLCanvasElement>(null);
-  const stage = useSignal<Stage | null>(null);
+  const isPhone = useSignal(phone.matches);
+  const partsOpen = useSignal(true);
+  const editsOpen = useSignal(true);
+  const tab = useSignal<'edits' | 'parts'>('edits');
+  const pickKind = useSignal<FeatureKind | null>(null);
+  const dropping = useSignal(false);
 
   useEffect(() => {
-    if (canvas.current === null) return;
-    const created = createStage(canvas.current);
-    stage.value = created;
-    return () => created.dispose();
-  }, [stage]);
+    const stops = [listenForShortcuts(), welcome(), listenForDrops((over) => (dropping.value = over))];
+    const onChange = () => {
+      isPhone.value = phone.matches;
+    };
+    phone.addEventListener('change', onChange);
+    return () => {
+      for (const stop of stops) stop();
+      phone.removeEventListener('change', onChange);
+    };
+  }, [dropping, isPhone]);
 
+  if (isEmbedded) return <Embedded />;
+  const insets: Insets = isPhone.value
+    ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 44 : 104 }
+    : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 56 };
+  const edits = <EditsPanel pickKind={pickKind} />;
   return (
-    <>
-      <canvas ref={canvas} class="stage" aria-label="A plank that leans on the ground" role="img" />
-      <header class="panel bar">
-        <h1>ParSEL</h1>
-        <span class="quiet" role="status">
-          {core.value.kind === 'starting' && 'starting the core…'}
-          {core.value.kind === 'ready' && `core ${core.value.version}, ready`}
-          {core.value.kind === 'failed' && core.value.text}
-        </span>
-      </header>
+    <div class={`app ${isPhone.value ? 'phone' : ''}`}>
+      <StageView insets={insets} pickKind={pickKind} />
+      <TopBar />
       <main>
-        <EquationCard stage={stage.value} />
+        {isPhone.value ? (
+          <Sheet tab={tab} open={editsOpen}>
+            {tab.value === 'edits' ? edits : <PartsPanel />}
+          </Sheet>
+        ) : (
+          <>
+            <SidePanel title="Parts" side="left" open={partsOpen}>
+              <PartsPanel />
+            </SidePanel>
+            <SidePanel title="Edits" side="right" open={editsOpen}>
+              {edits}
+            </SidePanel>
+          </>
+        )}
+        <div class={`centre ${editsOpen.value ? '' : 'low'}`}>
+          <StatusLine />
+          <Dimensions />
+        </div>
       </main>
-    </>
+      {dialog.value === 'open' && <OpenDialog />}
+      {dialog.value === 'share' && <ShareDialog />}
+      {dialog.value === 'help' && <HelpDialog />}
+      {dropping.value && (
+        <div class="drop" aria-hidden="true">
+          <p>Drop a model to open it</p>
+        </div>
+      )}
+    </div>
   );
+}
+
+interface Foldable {
+  readonly open: { value: boolean };
+  readonly children: ComponentChildren;
+}
+
+function SidePanel({ title, side, open, children }: Foldable & { title: string; side: 'left' | 'right' }) {
+  const fold = side === 'left' ? 'left' : 'right';
+  const unfold = side === 'left' ? 'right' : 'left';
+  return (
+    <aside class={`side panel ${side} ${open.value ? '' : 'folded'}`} aria-label={title}>
+      <header>
+        <h2>{title}</h2>
+        <button
+          type="button"
+          class="button icon-only"
+          aria-expanded={open.value}
+          aria-label={`${open.value ? 'Fold' : 'Unfold'} ${title}`}
+          onClick={() => {
+            open.value = !open.value;
+          }}
+        >
+          <Icon name={open.value ? fold : unfold} />
+        </button>
+      </header>
+      {open.value && <div class="scroll">{children}</div>}
+    </aside>
+  );
+}
+
+function Sheet({ tab, open, children }: Foldable & { tab: { value: 'edits' | 'parts' } }) {
+  return (
+    <section class={`sheet panel ${open.value ? '' : 'folded'}`} aria-label="Edits and parts">
+      <div class="tabs">
+        {(['edits', 'parts'] as const).map((name) => (
+          <button
+            key={name}
+            type="button"
+            aria-pressed={open.value && tab.value === name}
+            onClick={() => {
+              open.value = !(open.value && tab.value === name);
+              tab.value = name;
+            }}
+          >
+            {name === 'edits' ? 'Edits' : 'Parts'}
+          </button>
+        ))}
+      </div>
+      {open.value && <div class="scroll">{children}</div>}
+    </section>
+  );
+}
+
+/** `?embed`: the model and its sliders, nothing else. */
+function Embedded() {
+  const pickKind = useSignal<FeatureKind | null>(null);
+  const { layers } = document.value;
+  const insets: Insets = { left: 0, right: 0, top: 0, bottom: layers.length > 0 ? 130 : 0 };
+  return (
+    <div class="app embedded">
+      <StageView insets={insets} pickKind={pickKind} />
+      <main>
+        <h1 class="visually-hidden">{document.value.model?.shape.name ?? 'ParSEL'}</h1>
+        <div class="centre low">
+          <StatusLine />
+        </div>
+        <ul class="cards embedded-cards">
+          {layers.map((entry) => (
+            <LayerCard key={entry.key} entry={entry} first last plain />
+          ))}
+        </ul>
+      </main>
+    </div>
+  );
+}
+
+/** Files that are dropped anywhere on the page. */
+function listenForDrops(over: (isOver: boolean) => void): () => void {
+  const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
+  const onOver = (event: DragEvent) => {
+    if (!hasFiles(event)) return;
+    event.preventDefault();
+    over(true);
+  };
+  const onLeave = (event: DragEvent) => {
+    if (event.relatedTarget === null) over(false);
+  };
+  const onDrop = (event: DragEvent) => {
+    if (!hasFiles(event) || event.dataTransfer === null) return;
+    event.preventDefault();
+    over(false);
+    dialog.value = null;
+    void openAny(readDropped(event.dataTransfer));
+  };
+  addEventListener('dragover', onOver);
+  addEventListener('dragleave', onLeave);
+  addEventListener('drop', onDrop);
+  return () => {
+    removeEventListener('dragover', onOver);
+    removeEventListener('dragleave', onLeave);
+    removeEventListener('drop', onDrop);
+  };
 }

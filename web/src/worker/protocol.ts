@@ -27,6 +27,21 @@ export const methodSchemas = {
   },
   /** Bytes of the core's memory. It never shrinks, so this is its peak as well. */
   memory: { parameters: v.strictObject({}), result: v.strictObject({ bytes: v.number() }) },
+  /** `parsel/edit` v1 to a `parsel/program` v1 of one layer, and how it was found. */
+  propagate: {
+    parameters: v.strictObject({ edit: v.unknown() }),
+    result: v.strictObject({ program: v.unknown(), trace: v.unknown() }),
+  },
+  /** The opened model with a program applied: one buffer, a GLB. */
+  apply: {
+    parameters: v.strictObject({
+      program: v.unknown(),
+      values: v.array(v.number()),
+      animate: v.optional(v.string()),
+      only: v.optional(v.array(v.string())),
+    }),
+    result: v.strictObject({ warnings: v.array(v.strictObject({ place: v.string(), text: v.string() })) }),
+  },
   /** Goes wrong on purpose: how the recovery below is tested. */
   fail: {
     parameters: v.strictObject({ kind: v.picklist(['exception', 'abort', 'memory', 'hang']) }),

@@ -1,0 +1,169 @@
+// Every way in, and what is not a model: named in a sentence, with the work at hand untouched.
+import type { Server } from 'node:http';
+import { zipSync } from 'fflate';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { DebugHandle } from '../../web/src/ui/debug';
+import { type Gltf, stool, stoolGltf, toGlb } from './fixture';
+import { launch, openModel, openPage, pick, serve, withoutGallery } from './harness';
+
+declare const parsel: DebugHandle;
+
+let server: Server;
+let url: string;
+let browser: Browser;
+let page: Page;
+let complaints: string[];
+beforeAll(async () => {
+  ({ url, server } = await serve());
+  browser = await launch();
+});
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+const file = (name: string, buffer: Buffer) => ({ name, mimeType: 'application/octet-stream', buffer });
+const parts = () => page.evaluate(() => parsel.document().model?.shape.parts.length ?? 0);
+
+/** The stool as a .gltf beside its buffer. */
+function split({ json, binary }: Gltf, uri: string): { text: Buffer; binary: Buffer } {
+  const buffers = [{ byteLength: binary.length, uri }];
+  return { text: Buffer.from(JSON.stringify({ ...json, buffers })), binary };
+}
+
+/** Drops files as a person does: with the events that the page listens to. */
+async function drop(files: Record<string, Buffer>): Promise<void> {
+  const plain = Object.entries(files).map(([name, buffer]) => [name, buffer.toString('base64')] as const);
+  await page.evaluate((list) => {
+    const transfer = new DataTransfer();
+    for (const [name, base64] of list) {
+      const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+      transfer.items.add(new File([bytes], name));
+    }
+    for (const type of ['dragover', 'drop']) {
+      document.body.dispatchEvent(new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    }
+  }, plain);
+}
+
+describe('opening', () => {
+  beforeEach(async () => {
+    await page?.context().close();
+    ({ page, complaints } = await openPage(browser, `${url}?debug`, {}, withoutGallery));
+    await page.waitForFunction(() => 'parsel' in globalThis && parsel.isReady());
+  });
+  const opened = async () => {
+    await page.locator('.part').first().waitFor();
+    expect(await parts()).toBe(11);
+    expect(complaints).toEqual([]);
+  };
+
+  it('a .glb by the picker', async () => {
+    await pick(page, [file('stool.glb', stool)]);
+    await opened();
+  });
+
+  it('a .glb by a drop', async () => {
+    await drop({ 'stool.glb': stool });
+    await opened();
+  });
+
+  it('a .gltf with its buffer, whose name is escaped', async () => {
+    const { text, binary } = split(stoolGltf(), 'my%20data.bin');
+    await pick(page, [file('stool.gltf', text), file('my data.bin', binary)]);
+    await opened();
+  });
+
+  it('a zip with folders', async () => {
+    const { text, binary } = split(stoolGltf(), 'data/stool.bin');
+    const zip = zipSync({ 'a/readme.txt': Buffer.from('hello'), 'a/stool.gltf': text, 'a/data/stool.bin': binary });
+    await pick(page, [file('stool.zip', Buffer.from(zip))]);
+    await opened();
+  });
+
+  it('an address on the same site', async () => {
+    await page.route('**/models/stool.glb', (route) => route.fulfill({ body: stool }));
+    await page.locator('.bar .model').click();
+    await page.getByLabel('Address of a model').fill('./models/stool.glb');
+    await page.getByRole('button', { name: 'Open', exact: true }).click();
+    await opened();
+  });
+
+  it('a model of the gallery, with a picture of it', async () => {
+    const context = await browser.newContext();
+    await context.route('**/gallery/gallery.json', (route) =>
+      route.fulfill({ json: [{ id: 'stool', title: 'A stool', requests: ['Widen it.'] }] }),
+    );
+    await context.route('**/gallery/stool.glb', (route) => route.fulfill({ body: stool }));
+    const first = await context.newPage();
+    await first.goto(`${url}?debug`);
+    await first.locator('.part').first().waitFor(); // the first visit opens the first model by itself
+    await first.locator('.bar .model').click();
+    await first.getByRole('img', { includeHidden: true }).first().waitFor({ state: 'attached' });
+    await first.locator('.thumbnail img').waitFor();
+    expect(await first.getByRole('button', { name: 'A stool' }).count()).toBe(1);
+    await context.close();
+  });
+
+  it('names with markup as text', async () => {
+    const hostile = '<img src=x onerror="globalThis.hacked=1">';
+    await pick(page, [file('"><script>1</script>.glb', toGlb(stoolGltf(() => hostile)))]);
+    await page.locator('.part').first().waitFor();
+    expect(await page.locator('.side.left').textContent()).toContain('onerror');
+    expect(await page.evaluate(() => 'hacked' in globalThis)).toBe(false);
+    expect(await page.locator('.side img, .bar img').count()).toBe(0);
+    expect(complaints).toEqual([]);
+  });
+});
+
+describe('what cannot be opened', () => {
+  beforeAll(async () => {
+    await page?.context().close();
+    ({ page, complaints } = await openModel(browser, url, stool));
+  });
+  const needing = (extension: string) => {
+    const gltf = stoolGltf();
+    return toGlb({ ...gltf, json: { ...gltf.json, extensionsUsed: [extension], extensionsRequired: [extension] } });
+  };
+  /** Says of itself that it grows to 600 MiB: the size in the archive's directory, which begins with this signature. */
+  const bomb = () => {
+    const zip = Buffer.from(zipSync({ 'bomb.glb': Buffer.alloc(1000) }));
+    zip.writeUInt32LE(600 * 2 ** 20, zip.indexOf('PK\x01\x02', 0, 'latin1') + 24);
+    return zip;
+  };
+
+  it.each<[string, string, () => Buffer, RegExp]>([
+    ['a file of another kind', 'notes.txt', () => Buffer.from('hello'), /\.txt cannot be opened here\. Open a \.glb/],
+    ['nonsense', 'broken.glb', () => Buffer.from('hello'), /broken\.glb is damaged/],
+    ['a file that breaks off', 'half.glb', () => stool.subarray(0, stool.length >> 1), /.+\./],
+    ['a .gltf without its buffer', 'a.gltf', () => split(stoolGltf(), 'a.bin').text, /a\.gltf also needs a\.bin/],
+    ['KTX2 textures', 'k.glb', () => needing('KHR_texture_basisu'), /KHR_texture_basisu: its textures are KTX2/],
+    ['a zip without a model', 'z.zip', () => Buffer.from(zipSync({ 'a.txt': Buffer.from('x') })), /Open a \.glb/],
+    ['a zip that breaks off', 'z.zip', () => Buffer.from(zipSync({ 'a.glb': stool })).subarray(0, 300), /damaged/],
+    ['a zip that is a bomb', 'bomb.zip', bomb, /more than 512 MB/],
+    ['a session that is none', 'a.parsel.json', () => Buffer.from('{"format":"x"}'), /no saved ParSEL session/],
+    [
+      'a session of a newer version',
+      'a.parsel.json',
+      () => Buffer.from('{"format":"parsel/session","version":9}'),
+      /newer ParSEL/,
+    ],
+  ])('is refused by name: %s', async (_, name, content, sentence) => {
+    await pick(page, [file(name, content())]);
+    await expect.poll(() => page.getByRole('alert').textContent(), { timeout: 20_000 }).toMatch(sentence);
+    expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('stool');
+    expect(await parts()).toBe(11);
+    expect(complaints).toEqual([]);
+  });
+
+  it('says where the page may not fetch from, without trying', async () => {
+    await page.locator('.bar .model').click();
+    await page.getByLabel('Address of a model').fill('https://example.org/chair.glb');
+    await page.getByRole('button', { name: 'Open', exact: true }).click();
+    await expect
+      .poll(() => page.getByRole('alert').textContent())
+      .toMatch(/may not fetch from example\.org.*drop it here/);
+    expect(complaints).toEqual([]);
+  });
+});

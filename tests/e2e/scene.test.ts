@@ -1,0 +1,200 @@
+// The graphics card's deformation against the slow evaluator: the vertices of the file, carried by the corners that
+// interpretProgram() gives, must be where the card puts them.
+import type { Server } from 'node:http';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { type CheckedProgram, checkProgram } from '../../web/src/program/check';
+import { interpretProgram } from '../../web/src/program/interpret';
+import type { Corners, Shape, Vec3 } from '../../web/src/program/types';
+import type { DebugHandle } from '../../web/src/ui/debug';
+import { program, stool, verticesOf } from './fixture';
+import { launch, openModel, outputFolder, serve, stillPicture } from './harness';
+
+declare const parsel: DebugHandle;
+
+let server: Server;
+let browser: Browser;
+let page: Page;
+let complaints: string[];
+let shape: Shape;
+let checked: CheckedProgram;
+let keys: readonly number[];
+beforeAll(async () => {
+  const served = await serve();
+  server = served.server;
+  browser = await launch();
+  ({ page, complaints } = await openModel(browser, served.url, stool));
+  shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
+  const result = checkProgram(program(shape), shape);
+  if (!result.ok) throw new Error(result.error.cause);
+  checked = result.value;
+  keys = (await page.evaluate((edits) => parsel.addProgram(edits, 'test') ?? [], program(shape))) ?? [];
+});
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+const add = (a: Vec3, b: Vec3, factor = 1): Vec3 => [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]];
+const dot = (a: Vec3, b: Vec3) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a: Vec3, b: Vec3): Vec3 => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
+const unit = (a: Vec3): Vec3 => add([0, 0, 0], a, 1 / Math.hypot(...a));
+
+/** The map of a box at rest to a hexahedron: local coordinates by Cramer's rule, then the trilinear sum. */
+function carry(rest: Corners, now: Corners, point: Vec3): Vec3 {
+  const at = (k: number) => rest[k] as Vec3;
+  const edges = [1, 2, 4].map((k) => add(at(k), at(0), -1)) as [Vec3, Vec3, Vec3];
+  const from = add(point, at(0), -1);
+  const volume = dot(edges[0], cross(edges[1], edges[2]));
+  const local = edges.map((_, i) => {
+    const columns = edges.map((edge, j) => (i === j ? from : edge)) as [Vec3, Vec3, Vec3];
+    return dot(columns[0], cross(columns[1], columns[2])) / volume;
+  });
+  let sum: Vec3 = [0, 0, 0];
+  for (const [k, corner] of now.entries()) {
+    const weight = local.reduce((product, t, axis) => product * (k & (1 << axis) ? t : 1 - t), 1);
+    sum = add(sum, corner, weight);
+  }
+  return sum;
+}
+
+/** A normal as the cross product of two carried tangents. */
+function carryNormal(rest: Corners, now: Corners, point: Vec3, normal: Vec3): Vec3 {
+  const helper: Vec3 = Math.abs(normal[0]) < 0.5 ? [1, 0, 0] : [0, 1, 0];
+  const t = unit(cross(normal, helper));
+  const b = cross(normal, t);
+  const h = 1e-4;
+  const along = (d: Vec3) => add(carry(rest, now, add(point, d, h)), carry(rest, now, add(point, d, -h)), -1);
+  return unit(cross(along(t), along(b)));
+}
+
+interface Expected {
+  part: number;
+  rest: Corners;
+  instances: readonly Corners[];
+}
+
+/** What is drawn: every part from its own mesh, unless its row is drawn from one member's. */
+function expected(values: readonly number[]): Expected[] {
+  const state = interpretProgram(checked, shape, values);
+  const found: Expected[] = [];
+  for (const [part, { id, node, corners }] of shape.parts.entries()) {
+    if (node < 0) continue;
+    const relation = shape.relations.findIndex(({ kind, parts }) => kind === 'translation' && parts.includes(id));
+    const group = relation < 0 ? null : state.groups[relation];
+    const shared = group && group.source >= 0;
+    if (shared && shape.relations[relation]?.parts[group.source] !== id) continue;
+    found.push({ part, rest: corners, instances: shared ? group.instances : [state.parts[part] as Corners] });
+  }
+  return found;
+}
+
+const read = (part: number, what: 'positions' | 'normals') =>
+  page.evaluate(async ([p, w]) => [...((await parsel.stage()?.readVertices(p, w)) ?? [])], [part, what] as const);
+
+describe('the cage on the graphics card', () => {
+  it.each([
+    ['at rest', [0, 0, 0]],
+    ['stretched and bent', [0.5, 0, 0]],
+    ['turned and sheared', [0.2, -0.6, 0]],
+    ['with fewer instances', [0, 0.3, -2]],
+    ['with more instances than the rows had room for', [-0.15, 0.6, 31]],
+    ['back at rest', [0, 0, 0]],
+  ])('puts every vertex and normal where the evaluator says, %s', async (_, values) => {
+    await page.evaluate(
+      ([all, to]) => {
+        for (const [i, key] of all.entries()) parsel.slide(key, to[i] ?? 0);
+      },
+      [keys, values] as const,
+    );
+    const { centre, scale } = shape.frame;
+    let [worst, worstNormal, count] = [0, 0, 0];
+    for (const { part, rest, instances } of expected(values)) {
+      const positions = await read(part, 'positions');
+      const normals = await read(part, 'normals');
+      const vertices = verticesOf(shape.parts[part]?.node ?? 0);
+      expect(positions.length).toBe(3 * instances.length * vertices.positions.length);
+      for (const [i, now] of instances.entries()) {
+        for (const [j, position] of vertices.positions.entries()) {
+          const point = add([0, 0, 0], add(position, centre, -1), 1 / scale);
+          const at = 3 * (i * vertices.positions.length + j);
+          const shown = positions.slice(at, at + 3) as unknown as Vec3;
+          const shownNormal = normals.slice(at, at + 3) as unknown as Vec3;
+          const normal = carryNormal(rest, now, point, vertices.normals[j] as Vec3);
+          worst = Math.max(worst, Math.hypot(...add(shown, carry(rest, now, point), -1)));
+          worstNormal = Math.max(worstNormal, Math.hypot(...add(shownNormal, normal, -1)));
+          count++;
+        }
+      }
+    }
+    process.stdout.write(
+      `${count} vertices: positions off by ${worst.toExponential(1)}, normals by ${worstNormal.toExponential(1)}\n`,
+    );
+    expect(worst).toBeLessThan(2e-6); // single precision, shapes of size 2
+    expect(worstNormal).toBeLessThan(1e-4);
+  });
+
+  it('draws what it deforms: the picture changes with the slider and comes back with it', async () => {
+    const before = await stillPicture(page);
+    await page.evaluate((key) => parsel.slide(key, 0.5), keys[0] as number);
+    const wide = await stillPicture(page);
+    await page.evaluate((key) => parsel.slide(key, 0), keys[0] as number);
+    expect(wide.equals(before)).toBe(false);
+    expect((await stillPicture(page)).equals(before)).toBe(true);
+  });
+
+  it('picks deformed parts and instances by what is drawn', async () => {
+    const at = async (part: string) =>
+      page.evaluate((id) => {
+        const index = parsel.document().model?.shape.parts.findIndex((other) => other.id === id) ?? 0;
+        const corners = parsel.corners().slice(index * 24, index * 24 + 24);
+        return parsel.stage()?.projectMean(corners) ?? { x: 0, y: 0 };
+      }, part);
+    const seat = await at('seat');
+    await page.mouse.click(seat.x, seat.y);
+    expect(await page.locator('.part.selected').textContent()).toContain('seat');
+    await page.evaluate((key) => parsel.slide(key, 0.6), keys[1] as number);
+    const leg = shape.parts.find(({ node }) => node === 2);
+    const foot = await at(leg?.id ?? '');
+    await page.mouse.click(foot.x, foot.y);
+    expect(await page.locator('.part.selected').textContent()).toContain(leg?.name);
+    await page.screenshot({ path: `${outputFolder}/selected.png` });
+    await page.keyboard.press('Escape');
+    expect(await page.locator('.part.selected').count()).toBe(0);
+  });
+
+  it('survives the loss of the graphics context', async () => {
+    const before = await stillPicture(page);
+    await page.evaluate(async () => {
+      const gl = document.querySelector('canvas')?.getContext('webgl2');
+      const extension = gl?.getExtension('WEBGL_lose_context');
+      extension?.loseContext();
+      await new Promise((done) => setTimeout(done, 100));
+      extension?.restoreContext();
+      await new Promise((done) => setTimeout(done, 500));
+    });
+    expect((await stillPicture(page)).equals(before)).toBe(true);
+    expect(await page.locator('.card').count()).toBe(3);
+  });
+
+  it('never violated the policy', () => {
+    expect(complaints).toEqual([]);
+  });
+});
+
+describe('a step of the slider', () => {
+  it('costs little script', async () => {
+    const milliseconds = await page.evaluate((key) => {
+      const steps = 500;
+      const begin = performance.now();
+      for (let i = 0; i < steps; i++) parsel.slide(key, 0.4 * Math.sin(i));
+      return (performance.now() - begin) / steps;
+    }, keys[0] as number);
+    process.stdout.write(`a step, all script of it: ${milliseconds.toFixed(3)} ms with ${shape.parts.length} parts\n`);
+    expect(milliseconds).toBeLessThan(8); // 2 ms on a free machine; the test allows for a busy one
+  });
+});

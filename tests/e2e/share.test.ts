@@ -1,0 +1,144 @@
+// Links and session files: what one person sees, the other sees.
+import { readFile } from 'node:fs/promises';
+import type { Server } from 'node:http';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { Shape } from '../../web/src/program/types';
+import type { DebugHandle } from '../../web/src/ui/debug';
+import { program, stool, stoolGltf, toGlb } from './fixture';
+import { launch, openModel, openPage, outputFolder, pick, serve, type WatchedPage, withoutGallery } from './harness';
+
+declare const parsel: DebugHandle;
+
+let server: Server;
+let url: string;
+let browser: Browser;
+let page: Page;
+let complaints: string[];
+beforeAll(async () => {
+  ({ url, server } = await serve());
+  browser = await launch();
+  ({ page, complaints } = await openModel(browser, url, stool));
+  const shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
+  await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
+  await page.locator('.card').nth(2).waitFor();
+  for (const [i, value] of [0.3, -0.25, 5].entries()) await page.getByRole('slider').nth(i).fill(String(value));
+});
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+const corners = (of: Page) => of.evaluate(() => parsel.corners());
+const file = (buffer: Buffer, name = 'stool.glb') => [{ name, mimeType: 'model/gltf-binary', buffer }];
+
+/** The link as the dialog gives it, for a page with `?debug`. */
+async function link(): Promise<string> {
+  await page.getByRole('button', { name: 'Share' }).click();
+  const field = page.getByLabel('Link', { exact: true });
+  await expect.poll(() => field.inputValue()).toContain('#v1.');
+  const text = await field.inputValue();
+  await page.keyboard.press('Escape');
+  return text;
+}
+
+const openLink = (fragment: string, search = '?debug'): Promise<WatchedPage> =>
+  openPage(browser, `${url}${search}${fragment}`, {}, withoutGallery);
+
+describe('a link', () => {
+  it('asks a fresh profile for the file by name, checks it, and gives the same corners', async () => {
+    const text = await link();
+    expect(text.length).toBeLessThan(2048);
+    process.stdout.write(`a link for three layers: ${text.length} bytes\n`);
+    const fresh = await openLink(new URL(text).hash);
+    await expect.poll(() => fresh.page.getByRole('status').textContent()).toMatch(/made on “stool”/);
+
+    const other = toGlb(stoolGltf((name) => `${name}x`));
+    await pick(fresh.page, file(other));
+    await expect.poll(() => fresh.page.getByRole('alert').textContent()).toMatch(/is not the file/);
+    expect(await corners(fresh.page)).toEqual([]);
+
+    await pick(fresh.page, file(stool));
+    await fresh.page.locator('.card').nth(2).waitFor();
+    expect(await corners(fresh.page)).toEqual(await corners(page));
+    expect(new URL(fresh.page.url()).hash).toBe('');
+    expect(fresh.complaints).toEqual([]);
+    await fresh.page.context().close();
+  });
+
+  it('as a viewer has sliders and nothing else', async () => {
+    const text = await link();
+    const viewer = await openLink(new URL(text).hash, '?embed&debug');
+    await expect.poll(() => viewer.page.getByRole('status').textContent()).toMatch(/made on/);
+    expect(await viewer.page.locator('.bar, .side').count()).toBe(0);
+    await viewer.page.context().close();
+  });
+
+  it.each([
+    ['of a newer version', '#v7.abcd', /newer ParSEL/],
+    ['that was cut', '#v1.q1YqSyzKTC5RslJKS', /damaged/],
+    ['of nonsense', '#v1.%%%', /damaged/],
+    ['that is empty', '#v1.', /damaged/],
+  ])('%s is refused in a sentence', async (_, fragment, sentence) => {
+    const fresh = await openLink(fragment);
+    await expect.poll(() => fresh.page.getByRole('alert').textContent()).toMatch(sentence);
+    expect(fresh.complaints).toEqual([]);
+    await fresh.page.context().close();
+  });
+
+  it('that is a bomb is refused before it has grown', async () => {
+    const fragment = await page.evaluate(async () => {
+      const stream = new Blob([new Uint8Array(64 * 2 ** 20)])
+        .stream()
+        .pipeThrough(new CompressionStream('deflate-raw'));
+      const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+      let binary = '';
+      for (const byte of bytes) binary += String.fromCharCode(byte);
+      return `#v1.${btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '')}`;
+    });
+    const fresh = await openLink(fragment);
+    await expect.poll(() => fresh.page.getByRole('alert').textContent()).toMatch(/damaged/);
+    await fresh.page.context().close();
+  });
+});
+
+describe('files', () => {
+  const download = async (item: string): Promise<string> => {
+    await page.getByRole('button', { name: 'Export' }).click();
+    const [event] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('menuitem', { name: item }).click(),
+    ]);
+    const path = `${outputFolder}/${event.suggestedFilename()}`;
+    await event.saveAs(path);
+    return path;
+  };
+
+  it('a session file restores the work on the model that is open', async () => {
+    const path = await download('Session');
+    expect(path).toMatch(/stool\.parsel\.json$/);
+    const fresh = await openModel(browser, url, stool);
+    await pick(fresh.page, [{ name: 'a.parsel.json', mimeType: 'application/json', buffer: await readFile(path) }]);
+    await fresh.page.locator('.card').nth(2).waitFor();
+    expect(await corners(fresh.page)).toEqual(await corners(page));
+    await fresh.page.context().close();
+  });
+
+  it('the program is parsel/program v1 with the values of the sliders', async () => {
+    const saved = JSON.parse(await readFile(await download('Program'), 'utf8'));
+    expect(saved.format).toBe('parsel/program');
+    expect(saved.layers.map((layer: { parameter: { value: number } }) => layer.parameter.value)).toEqual([
+      0.3, -0.25, 5,
+    ]);
+  });
+
+  it('the picture is a PNG', async () => {
+    const bytes = await readFile(await download('Picture'));
+    expect(bytes.subarray(1, 4).toString()).toBe('PNG');
+    expect(bytes.length).toBeGreaterThan(5000);
+  });
+
+  it('never violated the policy', () => {
+    expect(complaints).toEqual([]);
+  });
+});

@@ -1,0 +1,76 @@
+// Reads a glTF file into meshes that are keyed as the core keys parts: by node and primitive. GLTFLoader renames nodes,
+// so names cannot serve.
+import * as three from 'three';
+import { type GLTF, GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+
+/** A model as it was opened: one file, and what it refers to. */
+export interface ModelFiles {
+  readonly name: string;
+  readonly main: Uint8Array;
+  /** Buffers and images of a .gltf by their path relative to it. */
+  readonly external: ReadonlyMap<string, Uint8Array>;
+}
+
+export interface LoadedMesh {
+  readonly mesh: three.Mesh;
+  readonly node: number;
+  readonly primitive: number;
+}
+
+export interface LoadedModel {
+  readonly meshes: readonly LoadedMesh[];
+  /** Lines and points: no parts, drawn as they are. */
+  readonly rest: readonly three.Object3D[];
+  dispose(): void;
+}
+
+/** Rejects with an Error whose message is one sentence for people. */
+export async function loadModel(files: ModelFiles): Promise<LoadedModel> {
+  const urls = new Map<string, string>();
+  for (const [path, bytes] of files.external) urls.set(path, URL.createObjectURL(new Blob([bytes as BlobPart])));
+  const manager = new three.LoadingManager();
+  manager.setURLModifier((url) => urls.get(decodeURI(url)) ?? (/^(blob|data):/.test(url) ? url : 'data:,'));
+  try {
+    const bytes = files.main;
+    const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
+    return collect(await new GLTFLoader(manager).parseAsync(buffer, ''));
+  } finally {
+    for (const url of urls.values()) URL.revokeObjectURL(url);
+  }
+}
+
+function collect(gltf: GLTF): LoadedModel {
+  const meshes: LoadedMesh[] = [];
+  const rest: three.Object3D[] = [];
+  gltf.scene.updateMatrixWorld(true);
+  gltf.scene.traverse((object) => {
+    if (object instanceof three.Mesh) meshes.push({ mesh: object, ...keyOf(gltf, object) });
+    else if (object instanceof three.Line || object instanceof three.Points) rest.push(object);
+  });
+  return {
+    meshes,
+    rest,
+    dispose() {
+      for (const { mesh } of meshes) disposeMesh(mesh);
+      for (const object of rest) disposeMesh(object as three.Line);
+    },
+  };
+}
+
+/** The primitive stands on the mesh itself, the node on it or, when the node has several primitives, above it. */
+function keyOf({ parser }: GLTF, mesh: three.Mesh): { node: number; primitive: number } {
+  const primitive = parser.associations.get(mesh)?.primitives ?? 0;
+  for (let object: three.Object3D | null = mesh; object !== null; object = object.parent) {
+    const node = parser.associations.get(object)?.nodes;
+    if (node !== undefined) return { node, primitive };
+  }
+  return { node: -1, primitive };
+}
+
+function disposeMesh(mesh: { geometry: three.BufferGeometry; material: three.Material | three.Material[] }): void {
+  mesh.geometry.dispose();
+  for (const material of [mesh.material].flat()) {
+    for (const value of Object.values(material)) if (value instanceof three.Texture) value.dispose();
+    material.dispose();
+  }
+}

@@ -1,0 +1,170 @@
+// What is drawn over the model while something is selected: the hexahedron with its chosen feature, the points of
+// attachments, planes and axes of symmetries. A few fixed buffers, rewritten when the state changes.
+import * as three from 'three';
+import { isGroup, type LocalTriple, type Shape, type Vec3 } from '../program/types';
+import { localFrame, trilinear } from './cage';
+
+const maxPoints = 256;
+
+export interface Highlight {
+  /** Part whose hexahedron is drawn, or -1. */
+  readonly part: number;
+  readonly feature: LocalTriple;
+  /** Relation indices whose points, planes and axes are drawn. */
+  readonly relations: readonly number[];
+}
+
+export interface OverlayColours {
+  readonly accent: three.ColorRepresentation;
+  readonly quiet: three.ColorRepresentation;
+}
+
+/** Corner k → its edges towards corners k ^ 1, k ^ 2, k ^ 4, each once: twelve. */
+const edgePairs: readonly (readonly [number, number])[] = Array.from({ length: 8 }, (_, k) =>
+  [1, 2, 4].filter((bit) => !(k & bit)).map((bit) => [k, k | bit] as const),
+).flat();
+
+export class Overlays {
+  readonly root = new three.Group();
+  readonly #box: three.LineSegments;
+  readonly #feature: three.Mesh;
+  readonly #featureLine: three.Line;
+  readonly #points: three.Points;
+  readonly #planes: three.Mesh[] = [];
+  readonly #planeMaterial: three.MeshBasicMaterial;
+  #highlight: Highlight = { part: -1, feature: [0, 0, 0], relations: [] };
+  /** Of each attachment: its points in local coordinates of its first part. */
+  readonly #attachments = new Map<number, { part: number; local: Vec3[] }>();
+
+  constructor(private readonly shape: Shape) {
+    const lines = new three.LineBasicMaterial({ depthTest: false, transparent: true, opacity: 0.9 });
+    this.#box = new three.LineSegments(buffer(24), lines);
+    this.#feature = new three.Mesh(
+      buffer(4).setIndex([0, 1, 2, 2, 1, 3]),
+      new three.MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.35, side: three.DoubleSide }),
+    );
+    this.#featureLine = new three.Line(buffer(2), new three.LineBasicMaterial({ depthTest: false }));
+    this.#points = new three.Points(
+      buffer(maxPoints),
+      new three.PointsMaterial({ size: 9, sizeAttenuation: false, depthTest: false, transparent: true }),
+    );
+    this.#planeMaterial = new three.MeshBasicMaterial({
+      transparent: true,
+      opacity: 0.14,
+      side: three.DoubleSide,
+      depthWrite: false,
+    });
+    for (const object of [this.#box, this.#feature, this.#featureLine, this.#points]) {
+      object.frustumCulled = false;
+      object.renderOrder = 10;
+      this.root.add(object);
+    }
+    const index = new Map(shape.parts.map((part, i) => [part.id, i]));
+    for (const [i, relation] of shape.relations.entries()) {
+      if (relation.kind === 'reflection' || isGroup(relation)) continue;
+      const part = index.get(relation.parts[0] ?? '') ?? 0;
+      const { centre, inverse } = localFrame(shape.parts[part]?.corners ?? []);
+      const local = relation.points.map((point) => {
+        const v = new three.Vector3(...point).sub(centre).applyMatrix3(inverse);
+        return [v.x, v.y, v.z] as const;
+      });
+      this.#attachments.set(i, { part, local });
+    }
+  }
+
+  setColours({ accent, quiet }: OverlayColours): void {
+    for (const object of [this.#feature, this.#featureLine, this.#points, this.#box]) {
+      (object.material as three.LineBasicMaterial).color.set(accent);
+    }
+    this.#planeMaterial.color.set(quiet);
+  }
+
+  show(highlight: Highlight, corners: Float64Array): void {
+    this.#highlight = highlight;
+    for (const plane of this.#planes) plane.visible = false;
+    let planes = 0;
+    for (const i of highlight.relations) {
+      const relation = this.shape.relations[i];
+      if (relation?.kind === 'reflection') this.#placePlane(planes++, relation.origin, relation.normal);
+    }
+    this.update(corners);
+  }
+
+  /** Follows the state; allocates nothing. */
+  update(corners: Float64Array): void {
+    const { part, feature, relations } = this.#highlight;
+    this.#box.visible = part >= 0;
+    this.#feature.visible = this.#featureLine.visible = false;
+    let points = 0;
+    const positions = this.#points.geometry.getAttribute('position') as three.BufferAttribute;
+    const add = (point: three.Vector3) => {
+      if (points < maxPoints) positions.setXYZ(points++, point.x, point.y, point.z);
+    };
+    if (part >= 0) {
+      const box = this.#box.geometry.getAttribute('position') as three.BufferAttribute;
+      for (const [i, pair] of edgePairs.entries()) {
+        for (const [end, corner] of pair.entries()) {
+          const at = part * 24 + corner * 3;
+          box.setXYZ(2 * i + end, corners[at] ?? 0, corners[at + 1] ?? 0, corners[at + 2] ?? 0);
+        }
+      }
+      box.needsUpdate = true;
+      this.#showFeature(corners, part, feature, add);
+    }
+    for (const relation of relations) {
+      const attachment = this.#attachments.get(relation);
+      for (const local of attachment?.local ?? [])
+        add(trilinear(corners, (attachment?.part ?? 0) * 24, local, scratch));
+    }
+    positions.needsUpdate = true;
+    this.#points.geometry.setDrawRange(0, points);
+    this.#points.visible = points > 0;
+  }
+
+  dispose(): void {
+    this.root.traverse((object) => {
+      if (!(object instanceof three.Mesh || object instanceof three.Line || object instanceof three.Points)) return;
+      object.geometry.dispose();
+      object.material.dispose();
+    });
+  }
+
+  /** A face as a sheet, an edge as a line, a corner as a point. */
+  #showFeature(corners: Float64Array, part: number, feature: LocalTriple, add: (point: three.Vector3) => void): void {
+    const free = [0, 1, 2].filter((axis) => feature[axis] === 0);
+    if (free.length === 3) return;
+    if (free.length === 0) add(trilinear(corners, part * 24, feature, scratch));
+    if (free.length === 0) return;
+    const shown = free.length === 2 ? this.#feature : this.#featureLine;
+    const positions = shown.geometry.getAttribute('position') as three.BufferAttribute;
+    for (let i = 0; i < 2 ** free.length; i++) {
+      const local: [number, number, number] = [...feature];
+      for (const [bit, axis] of free.entries()) local[axis] = i & (1 << bit) ? 1 : -1;
+      const { x, y, z } = trilinear(corners, part * 24, local, scratch);
+      positions.setXYZ(i, x, y, z);
+    }
+    positions.needsUpdate = true;
+    shown.visible = true;
+  }
+
+  #placePlane(number: number, origin: Vec3, normal: Vec3): void {
+    let plane = this.#planes[number];
+    if (plane === undefined) {
+      plane = new three.Mesh(new three.PlaneGeometry(2, 2), this.#planeMaterial);
+      this.#planes.push(plane);
+      this.root.add(plane);
+    }
+    plane.visible = true;
+    plane.position.set(...origin);
+    plane.quaternion.setFromUnitVectors(new three.Vector3(0, 0, 1), scratch.set(...normal));
+  }
+}
+
+const scratch = new three.Vector3();
+
+function buffer(vertices: number): three.BufferGeometry {
+  return new three.BufferGeometry().setAttribute(
+    'position',
+    new three.BufferAttribute(new Float32Array(3 * vertices), 3),
+  );
+}

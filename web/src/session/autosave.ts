@@ -1,0 +1,76 @@
+// Keeps the work in IndexedDB, so that a reload or a crash loses nothing. The model's bytes are written when it changes,
+// everything else a moment after each change.
+import { effect } from '@preact/signals';
+import { createStore, get, setMany, type UseStore } from 'idb-keyval';
+import type { ModelFiles } from '../scene/load';
+import { readSaved, type Saved, save } from '../share/saved';
+import type { ModelSource } from './document';
+import { document } from './session';
+
+const delay = 400; // milliseconds
+
+interface StoredModel {
+  readonly files: ModelFiles;
+  readonly source: ModelSource;
+}
+
+export interface Restored extends StoredModel {
+  readonly saved: Saved;
+}
+
+let store: UseStore | null = null;
+const opened = () => {
+  store ??= createStore('parsel', 'work');
+  return store;
+};
+
+/** The work of the last visit; null when there is none, or the browser keeps nothing. */
+export async function restore(): Promise<Restored | null> {
+  try {
+    const [model, work] = await Promise.all([get<StoredModel>('model', opened()), get('work', opened())]);
+    if (model === undefined) return null;
+    const read = readSaved(work);
+    return read.ok ? { ...model, saved: read.saved } : null;
+  } catch {
+    return null;
+  }
+}
+
+/** Starts saving. Private windows refuse: the page works on, without a net. */
+export function startAutosave(): () => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  let written: ModelFiles | null = null;
+  const write = async () => {
+    const current = document.peek();
+    if (current.model === null) return;
+    const { files, source } = current.model;
+    const entries: [string, unknown][] = [['work', save(current)]];
+    if (files !== written) entries.push(['model', { files, source } satisfies StoredModel]);
+    try {
+      await setMany(entries, opened());
+      written = files;
+    } catch {
+      // The next change tries again.
+    }
+  };
+  const flush = () => {
+    if (timer === undefined) return;
+    clearTimeout(timer);
+    timer = undefined;
+    void write();
+  };
+  addEventListener('pagehide', flush);
+  const stop = effect(() => {
+    if (document.value.model === null) return;
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      timer = undefined;
+      void write();
+    }, delay);
+  });
+  return () => {
+    stop();
+    removeEventListener('pagehide', flush);
+    clearTimeout(timer);
+  };
+}

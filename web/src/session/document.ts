@@ -1,0 +1,85 @@
+// What a person works on, as one immutable value: the model, the layers with their values, what is hidden and renamed.
+import type { Layer, LocalTriple, Program, Shape, Statement } from '../program/types';
+import type { ModelFiles } from '../scene/load';
+
+/** Where a model came from: what a link can name. */
+export type ModelSource =
+  | { readonly kind: 'gallery'; readonly id: string }
+  | { readonly kind: 'url'; readonly url: string }
+  | { readonly kind: 'file' };
+
+export interface OpenModel {
+  readonly files: ModelFiles;
+  readonly source: ModelSource;
+  readonly shape: Shape;
+}
+
+/** `parsel/edit` v1: what is propagated. Amounts of the seed are in x. */
+export interface EditInput {
+  readonly seed: readonly Statement[];
+  readonly disabled: readonly string[];
+  readonly hints: Readonly<Record<string, Hint>>;
+}
+export const hints = ['translate', 'rotate', 'scale', 'shear', 'change_count', 'change_delta', 'keep_fixed'] as const;
+export type Hint = (typeof hints)[number];
+
+/** A layer of the program with what the page adds to it. */
+export interface LayerEntry {
+  /** Unique in a session. */
+  readonly key: number;
+  readonly layer: Layer;
+  readonly enabled: boolean;
+  readonly value: number;
+}
+
+export interface Document {
+  readonly model: OpenModel | null;
+  readonly layers: readonly LayerEntry[];
+  /** Ids of hidden parts. */
+  readonly hidden: ReadonlySet<string>;
+  /** Names that were given to parts here, by id. */
+  readonly names: ReadonlyMap<string, string>;
+}
+
+export const emptyDocument: Document = { model: null, layers: [], hidden: new Set(), names: new Map() };
+
+export const wholePart: LocalTriple = [0, 0, 0];
+
+/** The program of the layers that are switched on, with their present values. */
+export function programOf(shape: Shape, layers: readonly LayerEntry[]): Program {
+  return {
+    format: 'parsel/program',
+    version: 1,
+    shape: { name: shape.name, sha256: shape.sha256 },
+    layers: layers
+      .filter(({ enabled }) => enabled)
+      .map(({ layer, value }) => ({ ...layer, parameter: { ...layer.parameter, value } })),
+  };
+}
+
+/**
+ * Layers whose parameters have names of their own, x1, x2, …, none of which `taken` has: parameter names are unique in a
+ * program, and propagation calls every parameter the same.
+ */
+export function withFreshParameters(layers: readonly Layer[], taken: ReadonlySet<string>): Layer[] {
+  const used = new Set(taken);
+  const renamed = new Map<string, string>();
+  for (const { parameter } of layers) {
+    let name = parameter.name;
+    for (let i = 1; used.has(name); i++) name = `x${i}`;
+    used.add(name);
+    renamed.set(parameter.name, name);
+  }
+  const rename = (amount: string) => amount.replace(/[a-z][a-z0-9_]*/g, (word) => renamed.get(word) ?? word);
+  return layers.map((layer) => ({
+    ...layer,
+    parameter: { ...layer.parameter, name: renamed.get(layer.parameter.name) ?? layer.parameter.name },
+    statements: layer.statements.map((statement) =>
+      'amount' in statement ? { ...statement, amount: rename(statement.amount) } : statement,
+    ),
+  }));
+}
+
+export function nameOf(document: Document, id: string): string {
+  return document.names.get(id) ?? document.model?.shape.parts.find((part) => part.id === id)?.name ?? id;
+}

@@ -1,0 +1,204 @@
+// From what a person drops, picks or points at to one model: a .glb, a .gltf with its files, a folder, a zip.
+import type { ModelFiles } from '../scene/load';
+
+/** Running limits on what is read, against archives that are bombs. */
+export const fileLimits = { bytes: 512 * 2 ** 20, entries: 10_000 } as const;
+
+/** Files by path. */
+export type FileSet = ReadonlyMap<string, Uint8Array>;
+
+/** Refused, in one sentence for people. */
+export class FileError extends Error {}
+
+const extension = (path: string) => /\.([^./]+)$/.exec(path)?.[1]?.toLowerCase() ?? '';
+const baseName = (path: string) => path.slice(path.lastIndexOf('/') + 1);
+const isZip = (bytes: Uint8Array) => bytes[0] === 0x50 && bytes[1] === 0x4b && bytes[2] === 3 && bytes[3] === 4;
+
+class Budget {
+  #bytes = 0;
+  #entries = 0;
+  takeBytes(bytes: number): void {
+    this.#bytes += bytes;
+    if (this.#bytes > fileLimits.bytes) throw new FileError('That is more than 512 MB. Open a smaller model.');
+  }
+  take(bytes: number): void {
+    this.takeBytes(bytes);
+    this.#entries++;
+    if (this.#entries > fileLimits.entries)
+      throw new FileError('That is more than 10,000 files. Open the model alone.');
+  }
+}
+
+/** Files of an <input>, with the folder's paths where there are any. */
+export async function readPicked(files: Iterable<File>): Promise<FileSet> {
+  const budget = new Budget();
+  const found = new Map<string, Uint8Array>();
+  for (const file of files) {
+    budget.take(file.size);
+    found.set(file.webkitRelativePath || file.name, new Uint8Array(await file.arrayBuffer()));
+  }
+  return found;
+}
+
+/** Everything that was dropped, folders walked. Call it in the handler itself: the items are gone afterwards. */
+export function readDropped(transfer: DataTransfer): Promise<FileSet> {
+  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry()).filter((entry) => entry !== null);
+  const loose = [...transfer.files];
+  return entries.length === 0 ? readPicked(loose) : walk(entries);
+}
+
+async function walk(roots: readonly FileSystemEntry[]): Promise<FileSet> {
+  const budget = new Budget();
+  const found = new Map<string, Uint8Array>();
+  const visit = async (entry: FileSystemEntry): Promise<void> => {
+    if (entry.isFile) {
+      const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
+      budget.take(file.size);
+      found.set(entry.fullPath.slice(1), new Uint8Array(await file.arrayBuffer()));
+    } else {
+      const reader = (entry as FileSystemDirectoryEntry).createReader();
+      for (;;) {
+        const batch = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+        if (batch.length === 0) return;
+        for (const child of batch) await visit(child);
+      }
+    }
+  };
+  for (const root of roots) await visit(root);
+  return found;
+}
+
+async function unpack(bytes: Uint8Array): Promise<FileSet> {
+  const { unzip } = await import('fflate');
+  const budget = new Budget();
+  return new Promise((resolve, reject) => {
+    try {
+      // fflate inflates into a buffer of the size that the directory says, so the budget holds whatever is inside.
+      const filter = ({ name, originalSize }: { name: string; originalSize: number }) => {
+        budget.take(originalSize);
+        return !name.endsWith('/');
+      };
+      unzip(bytes, { filter }, (error, files) => {
+        if (error) reject(new FileError('This zip file is damaged. Pack it again, or open the model itself.'));
+        else resolve(new Map(Object.entries(files)));
+      });
+    } catch (error) {
+      reject(error);
+    }
+  });
+}
+
+/** A session file among what was opened, or null. */
+export function sessionText(files: FileSet): string | null {
+  for (const [path, bytes] of files) if (path.endsWith('.parsel.json')) return new TextDecoder().decode(bytes);
+  return null;
+}
+
+/** Rejects with a FileError that says what to open instead. */
+export async function modelOf(files: FileSet): Promise<ModelFiles> {
+  const [only] = files.values();
+  if (files.size === 1 && only !== undefined && isZip(only)) return modelOf(await unpack(only));
+  const candidates = [...files.keys()]
+    .filter((path) => ['glb', 'gltf'].includes(extension(path)))
+    .sort((a, b) => a.split('/').length - b.split('/').length || a.localeCompare(b));
+  const [path] = candidates;
+  const main = path === undefined ? undefined : files.get(path);
+  if (path === undefined || main === undefined) throw new FileError(unreadable([...files.keys()]));
+  const name = baseName(path);
+  const external = extension(path) === 'gltf' ? externalFiles(path, main, files) : new Map<string, Uint8Array>();
+  refuseUnreadable(name, main);
+  return { name: name.replace(/\.[^.]+$/, ''), main, external };
+}
+
+function unreadable(paths: readonly string[]): string {
+  const kinds = [...new Set(paths.map(extension).filter(Boolean))].slice(0, 3).map((kind) => `.${kind}`);
+  const what = kinds.length > 0 ? `${kinds.join(', ')} cannot be opened here.` : 'There is no model in it.';
+  return `${what} Open a .glb, or a .gltf with its files, a folder or a zip that holds one; Blender exports both.`;
+}
+
+/** The JSON of a .gltf or of a .glb's first chunk; null when it is neither. */
+export function gltfJson(bytes: Uint8Array): Record<string, unknown> | null {
+  try {
+    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    const binary = bytes.length >= 20 && view.getUint32(0, true) === 0x46546c67;
+    const text = new TextDecoder().decode(binary ? bytes.subarray(20, 20 + view.getUint32(12, true)) : bytes);
+    const json: unknown = JSON.parse(text);
+    return typeof json === 'object' && json !== null && !Array.isArray(json) ? (json as Record<string, unknown>) : null;
+  } catch {
+    return null;
+  }
+}
+
+/** Extensions without which a file cannot be shown, and what to do about each. */
+const unsupported: ReadonlyMap<string, string> = new Map([
+  ['KHR_texture_basisu', 'its textures are KTX2; export it with PNG or JPEG textures'],
+  ['KHR_draco_mesh_compression', 'its meshes are compressed with Draco; export it without compression'],
+  ['EXT_meshopt_compression', 'its meshes are compressed with Meshopt; export it without compression'],
+]);
+
+function refuseUnreadable(name: string, bytes: Uint8Array): void {
+  const json = gltfJson(bytes);
+  if (json === null) throw new FileError(`${name} is damaged: it does not begin as glTF does. Export it again.`);
+  const required = Array.isArray(json['extensionsRequired']) ? json['extensionsRequired'] : [];
+  for (const extensionName of required) {
+    const reason = unsupported.get(String(extensionName));
+    if (reason !== undefined) throw new FileError(`${name} needs ${extensionName}: ${reason}.`);
+  }
+}
+
+/** The buffers and images that a .gltf names, by the names that it uses. */
+function externalFiles(path: string, main: Uint8Array, files: FileSet): Map<string, Uint8Array> {
+  const json = gltfJson(main);
+  const folder = path.slice(0, path.lastIndexOf('/') + 1);
+  const found = new Map<string, Uint8Array>();
+  const missing: string[] = [];
+  for (const list of [json?.['buffers'], json?.['images']]) {
+    for (const item of Array.isArray(list) ? list : []) {
+      const uri: unknown = (item as { uri?: unknown } | null)?.uri;
+      if (typeof uri !== 'string' || uri.startsWith('data:')) continue;
+      const relative = safeDecode(uri);
+      const bytes = files.get(folder + relative) ?? files.get(relative) ?? files.get(baseName(relative));
+      if (bytes === undefined) missing.push(baseName(relative));
+      else found.set(relative, bytes);
+    }
+  }
+  if (missing.length > 0) {
+    throw new FileError(`${baseName(path)} also needs ${missing.slice(0, 3).join(', ')}: drop the files together.`);
+  }
+  return found;
+}
+
+function safeDecode(uri: string): string {
+  try {
+    return decodeURIComponent(uri);
+  } catch {
+    return uri;
+  }
+}
+
+/** Fetches a model. The page's policy lets it ask its own site and this machine, nobody else. */
+export async function readUrl(address: string, signal: AbortSignal): Promise<FileSet> {
+  let url: URL;
+  try {
+    url = new URL(address, location.href);
+  } catch {
+    throw new FileError('That is no address. It should read like https://…/model.glb.');
+  }
+  const local = url.hostname === 'localhost' || url.hostname === '127.0.0.1';
+  if (url.origin !== location.origin && !local) {
+    throw new FileError(
+      `This page may not fetch from ${url.hostname}, for your safety. Download the file and drop it here.`,
+    );
+  }
+  const response = await fetch(url, { signal }).catch(() => null);
+  if (!response?.ok) throw new FileError(`${url.pathname} could not be fetched (${response?.status ?? 'no answer'}).`);
+  const budget = new Budget();
+  const chunks: Uint8Array[] = [];
+  const reader = response.body?.getReader();
+  for (let part = await reader?.read(); part?.value !== undefined; part = await reader?.read()) {
+    budget.takeBytes(part.value.length);
+    chunks.push(part.value);
+  }
+  const name = baseName(safeDecode(url.pathname)) || 'model.glb';
+  return new Map([[name, new Uint8Array(await new Blob(chunks as BlobPart[]).arrayBuffer())]]);
+}

@@ -1,0 +1,47 @@
+// The models that come with the page: gallery/gallery.json and one .glb a model.
+import * as v from 'valibot';
+import type { EditInput } from './document';
+
+const requestSchema = v.union([
+  v.pipe(
+    v.string(),
+    v.transform((request) => ({ request, edit: null })),
+  ),
+  v.looseObject({ request: v.string(), edit: v.nullable(v.looseObject({ seed: v.array(v.unknown()) })) }),
+]);
+const gallerySchema = v.array(
+  v.looseObject({ id: v.pipe(v.string(), v.regex(/^\w+$/)), title: v.string(), requests: v.array(requestSchema) }),
+);
+
+/** Something that can be asked of a model, with the edit that it means. */
+export interface Suggestion {
+  readonly request: string;
+  readonly edit: EditInput | null;
+}
+export interface GalleryEntry {
+  readonly id: string;
+  readonly title: string;
+  readonly suggestions: readonly Suggestion[];
+}
+
+let loading: Promise<readonly GalleryEntry[]> | null = null;
+
+/** Empty when the page came without a gallery. */
+export function loadGallery(): Promise<readonly GalleryEntry[]> {
+  loading ??= fetch('./gallery/gallery.json')
+    .then((response) => (response.ok ? response.json() : []))
+    .then((json: unknown) =>
+      v.parse(gallerySchema, json).map(({ id, title, requests }) => ({
+        id,
+        title,
+        suggestions: requests.map(({ request, edit }) => ({
+          request: request.replace(/\.$/, ''),
+          edit: edit && ({ disabled: [], hints: {}, ...edit } as unknown as EditInput),
+        })),
+      })),
+    )
+    .catch(() => []);
+  return loading;
+}
+
+export const galleryUrl = (id: string): string => `./gallery/${id}.glb`;

@@ -1,0 +1,69 @@
+// What the session asks of the core, and the core that answers. The core keeps one model; when it holds another than the
+// one that is asked about (after undo, say), it opens that one first.
+import type { Program, Shape } from '../program/types';
+import type { ModelFiles } from '../scene/load';
+import type { CallOptions, CoreClient } from '../worker/client';
+import type { EditInput, OpenModel } from './document';
+
+export interface Exported {
+  readonly glb: Uint8Array;
+  /** What could not be carried over, in sentences. */
+  readonly warnings: readonly string[];
+}
+
+export interface ExportOptions {
+  /** Name of the parameter that a glTF animation plays over its range. */
+  readonly animate?: string;
+  /** Ids of the parts to keep; all when absent. */
+  readonly only?: readonly string[];
+}
+
+type Options = Pick<CallOptions, 'signal' | 'onProgress'>;
+
+export interface ModelCore {
+  /** Reads and abstracts a model. */
+  open(files: ModelFiles, options: Options): Promise<Shape>;
+  /** One layer, from a seed edit. */
+  propagate(model: OpenModel, edit: EditInput, options: Options): Promise<Program>;
+  /** The model's file with the program applied. */
+  apply(model: OpenModel, program: Program, options: ExportOptions): Promise<Exported>;
+}
+
+export function modelCore(client: CoreClient): ModelCore {
+  let opened: ModelFiles | null = null;
+  const open = async (files: ModelFiles, options: Options): Promise<Shape> => {
+    const external = [...files.external.keys()];
+    const buffers = [files.main, ...files.external.values()];
+    const { result } = await client.call(
+      'open',
+      { name: files.name, external },
+      { ...options, buffers, state: 'model' },
+    );
+    opened = files;
+    return result.shape as unknown as Shape;
+  };
+  const hold = async (files: ModelFiles, options: Options) => {
+    if (opened !== files) await open(files, options);
+  };
+  return {
+    open,
+    async propagate(model, edit, options) {
+      await hold(model.files, options);
+      const { result } = await client.call('propagate', { edit }, options);
+      return result.program as Program;
+    },
+    async apply(model, program, { animate, only }) {
+      await hold(model.files, {});
+      const parameters = {
+        program,
+        values: program.layers.map(({ parameter }) => parameter.value),
+        ...(animate === undefined ? {} : { animate }),
+        ...(only === undefined ? {} : { only: [...only] }),
+      };
+      const { result, buffers } = await client.call('apply', parameters);
+      const [glb] = buffers;
+      if (glb === undefined) throw new Error('The core gave no file.');
+      return { glb, warnings: result.warnings.map(({ place, text }) => [place, text].filter(Boolean).join(': ')) };
+    },
+  };
+}

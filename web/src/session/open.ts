@@ -1,0 +1,134 @@
+// Opening: a model by any route, and saved work on one. The work at hand stays until the new one is ready.
+import { signal } from '@preact/signals';
+import { checkProgram } from '../program/check';
+import { errorMessage } from '../program/types';
+import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
+import type { Saved } from '../share/saved';
+import { type Document, emptyDocument, type LayerEntry, type ModelSource, type OpenModel, programOf } from './document';
+import { type FileSet, modelOf, readUrl } from './files';
+import { galleryUrl } from './gallery';
+import type { ModelCore } from './model_core';
+import { document, newEntry, replaceDocument, run, say } from './session';
+
+/** Meshes that have been read for a model that is about to be shown; the stage takes them. */
+const prepared = new WeakMap<ModelFiles, LoadedModel>();
+
+/** The meshes of a model, read again when the stage has had them before. The caller disposes of them. */
+export async function takeLoaded(files: ModelFiles): Promise<LoadedModel> {
+  const ready = prepared.get(files);
+  prepared.delete(files);
+  return ready ?? (await loadModel(files));
+}
+
+/** Work that waits for its model to be supplied: what a link names by file name and hash only. */
+export const awaited = signal<Saved | null>(null);
+
+/** Camera of the work that was opened last, for the stage to take over. */
+export const openedView = signal<Saved['view'] | null>(null);
+
+async function abstract(
+  core: ModelCore,
+  get: (signal: AbortSignal) => Promise<ModelFiles>,
+  source: ModelSource,
+): Promise<OpenModel | null> {
+  return run('Reading the model', async (options) => {
+    const files = await get(options.signal);
+    const shape = await core.open(files, options);
+    prepared.set(files, await loadModel(files));
+    options.signal.throwIfAborted();
+    return { files, source, shape };
+  });
+}
+
+function show(model: OpenModel, saved: Saved | null): boolean {
+  const next = saved === null ? { ...emptyDocument, model } : documentOf(model, saved);
+  if (next === null) return false;
+  openedView.value = saved?.view ?? null;
+  replaceDocument(next, `open ${model.shape.name}`);
+  const { warnings } = model.shape;
+  if (warnings.length > 0)
+    say(
+      `Left out: ${warnings
+        .map(({ place, text }) => `${place}: ${text}`)
+        .slice(0, 3)
+        .join('; ')}`,
+    );
+  return true;
+}
+
+/** Saved work on its model; null, and a sentence, when it does not fit. */
+function documentOf(model: OpenModel, saved: Saved): Document | null {
+  const off = new Set(saved.off);
+  const layers: LayerEntry[] = saved.program.layers.map((layer, i) =>
+    newEntry(layer, layer.parameter.value, !off.has(i)),
+  );
+  // Layers that are off have to be sound as well: they can be switched on.
+  const everything = programOf(
+    model.shape,
+    layers.map((entry) => ({ ...entry, enabled: true })),
+  );
+  const checked = checkProgram(everything, model.shape);
+  if (!checked.ok) {
+    say(`The saved edits do not fit ${model.shape.name}. ${errorMessage(checked.error)}`, 'error');
+    return null;
+  }
+  const known = new Set(model.shape.parts.map(({ id }) => id));
+  return {
+    model,
+    layers,
+    hidden: new Set(saved.hidden.filter((id) => known.has(id))),
+    names: new Map(saved.names.filter(([id]) => known.has(id))),
+  };
+}
+
+async function openFrom(
+  core: ModelCore,
+  get: (signal: AbortSignal) => Promise<ModelFiles>,
+  source: ModelSource,
+  saved: Saved | null,
+): Promise<boolean> {
+  const model = await abstract(core, get, source);
+  if (model === null) return false;
+  if (saved !== null && saved.model.sha256 !== model.shape.sha256) {
+    say(`${model.shape.name} is not the file that this work was made on (${saved.model.name}).`, 'error');
+    return false;
+  }
+  return show(model, saved);
+}
+
+/** Files of a drop or a picker. When work waits for its model, this is taken for it. */
+export async function openFiles(core: ModelCore, files: FileSet): Promise<boolean> {
+  const saved = awaited.peek();
+  const done = await openFrom(core, () => modelOf(files), { kind: 'file' }, saved);
+  if (done) awaited.value = null;
+  return done;
+}
+
+export function openGallery(core: ModelCore, id: string, saved: Saved | null = null): Promise<boolean> {
+  return openFrom(
+    core,
+    async (signal) => modelOf(await readUrl(galleryUrl(id), signal)),
+    { kind: 'gallery', id },
+    saved,
+  );
+}
+
+export function openUrl(core: ModelCore, url: string, saved: Saved | null = null): Promise<boolean> {
+  return openFrom(core, async (signal) => modelOf(await readUrl(url, signal)), { kind: 'url', url }, saved);
+}
+
+/** Files that the browser kept. */
+export function reopen(core: ModelCore, files: ModelFiles, source: ModelSource, saved: Saved): Promise<boolean> {
+  return openFrom(core, async () => files, source, saved);
+}
+
+/** Saved work from a link or a file: opens its model, or asks for it. */
+export async function openSaved(core: ModelCore, saved: Saved): Promise<boolean> {
+  const { gallery, url, sha256 } = saved.model;
+  const { model } = document.peek();
+  if (model?.shape.sha256 === sha256) return show(model, saved);
+  if (gallery !== undefined) return openGallery(core, gallery, saved);
+  if (url !== undefined) return openUrl(core, url, saved);
+  awaited.value = saved;
+  return false;
+}

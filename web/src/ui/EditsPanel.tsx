@@ -1,0 +1,102 @@
+// The program: its layers as cards, what can be asked of this model at once, and the way to an edit by hand.
+import type { Signal } from '@preact/signals';
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { models } from '../session/core';
+import { loadGallery, type Suggestion } from '../session/gallery';
+import { playOnce } from '../session/play';
+import { compiled, document, propagate, task } from '../session/session';
+import { HandPanel } from './HandPanel';
+import { Icon } from './Icon';
+import { LayerCard } from './LayerCard';
+import type { FeatureKind } from './words';
+
+interface EditsProps {
+  /** Null while the edit by hand is closed. */
+  readonly pickKind: Signal<FeatureKind | null>;
+}
+
+export function EditsPanel({ pickKind }: EditsProps) {
+  const { model, layers } = document.value;
+  if (model === null) return <p class="quiet empty">Edits appear here, each with a slider.</p>;
+  const state = compiled.value;
+  return (
+    <>
+      {layers.length === 0 && pickKind.value === null && (
+        <p class="quiet empty">
+          No edits yet. Start with a suggestion, or pick a part in the view and edit it by hand.
+        </p>
+      )}
+      {state.kind === 'refused' && (
+        <p class="broken" role="alert">
+          These edits do not go together: {state.text}
+        </p>
+      )}
+      <ul class="cards">
+        {layers.map((entry, i) => (
+          <LayerCard key={entry.key} entry={entry} first={i === 0} last={i === layers.length - 1} />
+        ))}
+      </ul>
+      {pickKind.value === null ? (
+        <>
+          <Suggestions />
+          <button
+            type="button"
+            class="button wide"
+            onClick={() => {
+              pickKind.value = 'whole';
+            }}
+          >
+            <Icon name="hand" /> Edit by hand
+          </button>
+        </>
+      ) : (
+        <HandPanel
+          pickKind={pickKind}
+          onDone={() => {
+            pickKind.value = null;
+          }}
+        />
+      )}
+    </>
+  );
+}
+
+/** Known edits of a gallery model, one click each. */
+function Suggestions() {
+  const found = useSignal<readonly Suggestion[]>([]);
+  const { model, layers } = document.value;
+  const id = model?.source.kind === 'gallery' ? model.source.id : null;
+  useEffect(() => {
+    let current = true;
+    void loadGallery().then((gallery) => {
+      if (current) found.value = gallery.find((entry) => entry.id === id)?.suggestions ?? [];
+    });
+    return () => {
+      current = false;
+    };
+  }, [id, found]);
+  const made = new Set(layers.map(({ layer }) => layer.request));
+  const open = found.value.filter(({ request, edit }) => edit !== null && !made.has(request));
+  if (open.length === 0) return null;
+  return (
+    <section class="suggestions" aria-label="Suggestions">
+      <h3>Try</h3>
+      {open.map(({ request, edit }) => (
+        <button
+          key={request}
+          type="button"
+          class="chip-button"
+          disabled={models.value === null || task.value !== null}
+          onClick={async () => {
+            if (models.value === null || edit === null) return;
+            const key = await propagate(models.value, edit, request);
+            if (key !== null) playOnce(key);
+          }}
+        >
+          {request}
+        </button>
+      ))}
+    </section>
+  );
+}

@@ -1,0 +1,45 @@
+// The keyboard sheet, and what this is.
+import { dialog } from './actions';
+import { Dialog } from './Dialog';
+
+const keys: readonly (readonly [keys: string, what: string])[] = [
+  ['Drag, right-drag, wheel', 'turn, move, zoom'],
+  ['F', 'bring the selected part, or everything, into view'],
+  ['1 · 3 · 7', 'front, side, top view'],
+  ['H · Alt+H', 'hide the selected part, show all'],
+  ['Escape', 'let go of the selection'],
+  ['Space', 'animate the last edit'],
+  ['Ctrl+Z · Ctrl+Shift+Z', 'undo, redo'],
+  ['Ctrl+O · Ctrl+S', 'open, save the session'],
+  ['Arrows on the view', 'turn it; + and − zoom'],
+  ['Arrows on a slider', 'one step; with Shift ten, with Alt a tenth'],
+  ['Double-click on a slider', 'back to the model as it was'],
+];
+
+export function HelpDialog() {
+  return (
+    <Dialog
+      title="Keyboard and help"
+      onClose={() => {
+        dialog.value = null;
+      }}
+    >
+      <p>
+        Pick a part, say how it changes, and the other parts follow so that what is joined stays joined and what is
+        symmetric stays symmetric. How much is the slider's.
+      </p>
+      <dl class="keys">
+        {keys.map(([combination, what]) => (
+          <div key={combination}>
+            <dt>{combination}</dt>
+            <dd>{what}</dd>
+          </div>
+        ))}
+      </dl>
+      <p class="quiet">
+        After <a href="https://arxiv.org/abs/2405.20319">ParSEL: Parameterized Shape Editing with Language</a>, Ganeshan
+        et al. 2024. Models never leave this machine.
+      </p>
+    </Dialog>
+  );
+}

@@ -1,0 +1,185 @@
+// One edit as a card: its request, its slider, what it keeps, and on demand every statement with its why.
+import { useSignal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
+import type { RelationReport, Statement } from '../program/types';
+import type { LayerEntry } from '../session/document';
+import { formatMeasure } from '../session/measure';
+import { playing, playOn, stop } from '../session/play';
+import { document, moveLayer, pointedAt, removeLayer, renameLayer, setEnabled, titleOf } from '../session/session';
+import { Icon } from './Icon';
+import { Menu } from './Menu';
+import { ValueSlider } from './ValueSlider';
+import { keptWords, relationWords, statementWords, whyWords } from './words';
+
+interface CardProps {
+  readonly entry: LayerEntry;
+  readonly first: boolean;
+  readonly last: boolean;
+  /** A viewer has the slider only. */
+  readonly plain?: boolean;
+}
+
+export function LayerCard({ entry, first, last, plain = false }: CardProps) {
+  const { key, layer, enabled } = entry;
+  const renaming = useSignal(false);
+  const isPlaying = playing.value === key;
+  const title = titleOf(layer);
+  return (
+    <li class={`card ${enabled ? '' : 'off'}`} aria-label={title}>
+      <header>
+        {renaming.value ? <RenameField entry={entry} done={() => (renaming.value = false)} /> : <h3>{title}</h3>}
+        <button
+          type="button"
+          class="button icon-only"
+          aria-label={isPlaying ? `Stop ${title}` : `Animate ${title}`}
+          title={isPlaying ? 'Stop' : 'Animate'}
+          aria-disabled={!enabled}
+          onClick={() => {
+            if (isPlaying) stop();
+            else if (enabled) playOn(key);
+          }}
+        >
+          <Icon name={isPlaying ? 'pause' : 'play'} />
+        </button>
+        {!plain && (
+          <Menu
+            label={`More about ${title}`}
+            class="button icon-only"
+            items={[
+              { label: 'Rename', act: () => (renaming.value = true) },
+              { label: enabled ? 'Switch off' : 'Switch on', act: () => setEnabled(key, !enabled) },
+              { label: 'Move up', disabled: first, act: () => moveLayer(key, -1) },
+              { label: 'Move down', disabled: last, act: () => moveLayer(key, 1) },
+              { label: 'Remove', act: () => removeLayer(key) },
+            ]}
+          >
+            <Icon name="more" />
+          </Menu>
+        )}
+      </header>
+      <ValueSlider entry={entry} />
+      {!enabled && <p class="quiet">Switched off</p>}
+      {!plain && <Status reports={layer.relations} />}
+      {!plain && <Statements statements={layer.statements} />}
+    </li>
+  );
+}
+
+function RenameField({ entry, done }: { entry: LayerEntry; done: () => void }) {
+  const cancelled = useRef(false);
+  return (
+    <input
+      class="rename"
+      value={entry.layer.request}
+      maxLength={400}
+      aria-label="Name of the edit"
+      ref={(element) => element?.focus()}
+      onBlur={(event) => {
+        done();
+        if (!cancelled.current) renameLayer(entry.key, event.currentTarget.value.trim());
+      }}
+      onKeyDown={(event) => {
+        cancelled.current = event.key === 'Escape';
+        if (event.key === 'Enter' || event.key === 'Escape') event.currentTarget.blur();
+      }}
+    />
+  );
+}
+
+const point = (parts: readonly string[], relations: readonly string[]) => {
+  const show = () => {
+    pointedAt.value = { parts, relations };
+  };
+  const hide = () => {
+    pointedAt.value = null;
+  };
+  return { onPointerEnter: show, onPointerLeave: hide, onFocus: show, onBlur: hide };
+};
+
+/** What the edit keeps and gives up: quiet when all is held, amber with the reason when not. */
+function Status({ reports }: { reports: readonly RelationReport[] }) {
+  const { model } = document.value;
+  const kept = keptWords(reports);
+  if (model === null || kept === '') return null;
+  const notable = reports.filter(({ status }) => status !== 'held');
+  const broken = notable.some(({ status }) => status === 'broken');
+  const sampled = reports.filter(({ status, proof }) => status === 'held' && proof === 'sampled').length;
+  return (
+    <div class="status">
+      <p class={broken ? 'broken' : 'held'}>
+        <Icon name={broken ? 'warning' : 'check'} />
+        <span>
+          {kept}
+          <span class="quiet">{sampled === 0 ? ' · proved' : ` · ${sampled} sampled, the others proved`}</span>
+        </span>
+      </p>
+      {notable.length > 0 && (
+        <ul>
+          {notable.map((report) => {
+            const relation = model.shape.relations.find(({ id }) => id === report.id);
+            if (relation === undefined) return null;
+            const off = formatMeasure('distance', report.worst * model.shape.frame.scale);
+            const text = report.status === 'disabled' ? 'ignored, as asked' : `comes apart by up to ${off}`;
+            return (
+              <li key={report.id}>
+                <button type="button" class={`line ${report.status}`} {...point(relation.parts, [relation.id])}>
+                  {relationWords(document.value, relation)}: <span>{text}</span>
+                </button>
+              </li>
+            );
+          })}
+        </ul>
+      )}
+    </div>
+  );
+}
+
+function Statements({ statements }: { statements: readonly Statement[] }) {
+  return (
+    <details class="statements">
+      <summary>
+        {statements.length} {statements.length === 1 ? 'statement' : 'statements'}
+      </summary>
+      <ol>
+        {statements.map((statement, i) => (
+          // biome-ignore lint/suspicious/noArrayIndexKey: statements have no other identity, and never change in place
+          <StatementLine key={i} statement={statement} />
+        ))}
+      </ol>
+    </details>
+  );
+}
+
+function StatementLine({ statement }: { statement: Statement }) {
+  const open = useSignal(false);
+  const why = whyWords(document.value, statement);
+  const parts = 'part' in statement ? [statement.part] : groupMembers(statement.relation);
+  return (
+    <li>
+      <button
+        type="button"
+        class="line"
+        aria-expanded={open.value}
+        onClick={() => {
+          open.value = !open.value;
+        }}
+        {...point(parts, statement.why?.relations ?? [])}
+      >
+        {statementWords(document.value, statement)}
+        {why && <span class="quiet">, {why}</span>}
+      </button>
+      {open.value && <code class="formula">{formula(statement)}</code>}
+    </li>
+  );
+}
+
+const groupMembers = (relation: string): readonly string[] =>
+  document.peek().model?.shape.relations.find(({ id }) => id === relation)?.parts ?? [];
+
+/** The statement as it is written, complete. */
+function formula(statement: Statement): string {
+  const { op, why, ...fields } = statement;
+  const text = Object.entries(fields).map(([name, value]) => `${name}: ${JSON.stringify(value).replaceAll('"', '')}`);
+  const reason = why && why.relations.length > 0 ? `\nbecause of ${why.relations.join(', ')}` : '';
+  return `${op}\n${text.join('\n')}${reason}`;
+}

@@ -1,0 +1,79 @@
+// The canvas: hover and click on parts, and on their features while an edit is made by hand.
+import type { Signal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import type { LocalTriple, Sign, Vec3 } from '../program/types';
+import type { Insets } from '../scene/camera';
+import { document, hovered, select, selection } from '../session/session';
+import { currentEvaluator, mountStage, stage } from './view';
+import type { FeatureKind } from './words';
+
+const dragThreshold = 5; // CSS pixels
+
+interface StageViewProps {
+  readonly insets: Insets;
+  readonly pickKind: Signal<FeatureKind | null>;
+}
+
+/** The feature of a kind that is nearest to a point of the box: the coordinates that are farthest out decide. */
+export function nearestFeature(kind: FeatureKind, local: Vec3): LocalTriple {
+  const wanted = { whole: 0, face: 1, edge: 2, corner: 3 }[kind];
+  const order = [0, 1, 2].sort((a, b) => Math.abs(local[b] ?? 0) - Math.abs(local[a] ?? 0));
+  const feature: [Sign, Sign, Sign] = [0, 0, 0];
+  for (const axis of order.slice(0, wanted)) feature[axis] = (local[axis] ?? 0) < 0 ? -1 : 1;
+  return feature;
+}
+
+export function StageView({ insets, pickKind }: StageViewProps) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const pressed = useRef<{ x: number; y: number } | null>(null);
+  const hoverFrame = useRef(0);
+  useEffect(() => (canvas.current === null ? undefined : mountStage(canvas.current)), []);
+
+  const { left, right, top, bottom } = insets;
+  const model = document.value.model;
+  useEffect(() => {
+    stage.value?.setInsets({ left, right, top, bottom });
+    const evaluator = currentEvaluator();
+    if (evaluator) stage.value?.fit(evaluator, null);
+  }, [left, right, top, bottom, stage.value]);
+
+  const partAt = (x: number, y: number) => {
+    const hit = stage.peek()?.pick(x, y) ?? null;
+    const id = hit && document.peek().model?.shape.parts[hit.part]?.id;
+    return hit && id !== undefined && id !== null ? { id, local: hit.local } : null;
+  };
+  return (
+    <canvas
+      ref={canvas}
+      class="stage"
+      tabIndex={0}
+      role="img"
+      aria-label={model === null ? 'No model yet' : `${model.shape.name}, turn with the arrow keys`}
+      onPointerDown={(event) => {
+        pressed.current = event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
+      }}
+      onPointerUp={(event) => {
+        const start = pressed.current;
+        pressed.current = null;
+        if (start === null || Math.hypot(event.clientX - start.x, event.clientY - start.y) > dragThreshold) return;
+        const hit = partAt(event.clientX, event.clientY);
+        const kind = pickKind.peek() ?? 'whole';
+        if (hit === null) select(null);
+        else if (kind !== 'whole') select(hit.id, nearestFeature(kind, hit.local));
+        else select(selection.peek()?.part === hit.id && pickKind.peek() === null ? null : hit.id);
+      }}
+      onPointerMove={(event) => {
+        if (event.buttons !== 0 || event.pointerType === 'touch') return;
+        const { clientX, clientY } = event;
+        cancelAnimationFrame(hoverFrame.current);
+        hoverFrame.current = requestAnimationFrame(() => {
+          hovered.value = partAt(clientX, clientY)?.id ?? null;
+        });
+      }}
+      onPointerLeave={() => {
+        cancelAnimationFrame(hoverFrame.current);
+        hovered.value = null;
+      }}
+    />
+  );
+}

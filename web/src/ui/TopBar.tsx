@@ -1,0 +1,90 @@
+// Model, history, sharing, export, help, theme.
+import { document, redo, redoLabel, selection, undo, undoLabel } from '../session/session';
+import { dialog, exportModel, exportProgram, exportScreenshot, saveSession } from './actions';
+import { Icon } from './Icon';
+import { Menu, type MenuItem } from './Menu';
+import { isDark, toggleTheme } from './theme';
+import { showColours } from './view';
+
+function exportItems(): MenuItem[] {
+  const { model, layers } = document.value;
+  const none = model === null;
+  const noLayer = none || !layers.some(({ enabled }) => enabled);
+  return [
+    { label: 'Edited model', hint: '.glb', disabled: none, act: () => void exportModel('all') },
+    {
+      label: 'Selected part only',
+      hint: '.glb',
+      disabled: none || selection.value === null,
+      act: () => void exportModel('selected'),
+    },
+    { label: 'Animated by the last slider', hint: '.glb', disabled: noLayer, act: () => void exportModel('animated') },
+    { label: 'Program', hint: '.json', disabled: noLayer, act: exportProgram },
+    { label: 'Session', hint: '.parsel.json', disabled: none, act: saveSession },
+    { label: 'Picture', hint: '.png', disabled: none, act: () => void exportScreenshot() },
+  ];
+}
+
+export function TopBar() {
+  const { model } = document.value;
+  return (
+    <header class="bar panel">
+      <h1>ParSEL</h1>
+      <button type="button" class="button model" aria-haspopup="dialog" onClick={() => (dialog.value = 'open')}>
+        <Icon name="open" />
+        <span class="model-name">{model?.shape.name ?? 'Open a model'}</span>
+      </button>
+      <div class="bar-middle">
+        <button
+          type="button"
+          class="button icon-only"
+          aria-label={undoLabel.value === null ? 'Undo' : `Undo: ${undoLabel.value}`}
+          title={`Undo ${undoLabel.value ?? ''} (Ctrl+Z)`}
+          disabled={undoLabel.value === null}
+          onClick={undo}
+        >
+          <Icon name="undo" />
+        </button>
+        <button
+          type="button"
+          class="button icon-only"
+          aria-label={redoLabel.value === null ? 'Redo' : `Redo: ${redoLabel.value}`}
+          title={`Redo ${redoLabel.value ?? ''} (Ctrl+Shift+Z)`}
+          disabled={redoLabel.value === null}
+          onClick={redo}
+        >
+          <Icon name="redo" />
+        </button>
+      </div>
+      <button
+        type="button"
+        class="button"
+        aria-label="Share"
+        disabled={model === null}
+        aria-haspopup="dialog"
+        onClick={() => (dialog.value = 'share')}
+      >
+        <Icon name="share" />
+        <span class="wide-only">Share</span>
+      </button>
+      <Menu label="Export" items={exportItems()}>
+        <Icon name="export" />
+        <span class="wide-only">Export</span>
+      </Menu>
+      <Menu
+        label="View and help"
+        class="button icon-only"
+        items={[
+          { label: 'Keyboard and help', hint: '?', act: () => (dialog.value = 'help') },
+          {
+            label: showColours.value ? 'Own colours' : 'Colour the parts',
+            act: () => (showColours.value = !showColours.value),
+          },
+          { label: isDark.value ? 'Light' : 'Dark', act: toggleTheme },
+        ]}
+      >
+        <Icon name="help" />
+      </Menu>
+    </header>
+  );
+}

@@ -1,0 +1,187 @@
+// A layer's slider, and its value as the length, angle or count that it changes: drag, type, double-click to reset,
+// arrows (with Shift ten steps, with Alt a tenth), Page keys, Home and End.
+import { useComputed, useSignal } from '@preact/signals';
+import type { Evaluator } from '../program/compile';
+import type { LayerEntry } from '../session/document';
+import { nameOf } from '../session/document';
+import { formatMeasure, type Measure, measureOf, parseMeasure } from '../session/measure';
+import { interrupt } from '../session/play';
+import { compiled, document, settle, setValue, slide, sliderValue, step, titleOf } from '../session/session';
+
+const steps = 200;
+
+export function ValueSlider({ entry }: { entry: LayerEntry }) {
+  const { parameter } = entry.layer;
+  const { min, max } = parameter;
+  const unit = (max - min) / steps || 1e-3;
+  const reading = useComputed(() => readingOf(entry));
+  const { text, measure, rest, now } = reading.value;
+  const value = sliderValue(entry);
+
+  const onKeyDown = (event: KeyboardEvent) => {
+    const sign = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+    if (sign === undefined || !(event.shiftKey || event.altKey)) return;
+    event.preventDefault();
+    setValue(entry.key, sliderValue(entry) + sign * unit * (event.shiftKey ? 10 : 0.1));
+  };
+  const share = (x: number) => (x - min) / (max - min || 1);
+  return (
+    <div class="value">
+      <div
+        class="track"
+        style={{ '--zero': share(0), '--low': share(Math.min(0, value)), '--span': Math.abs(share(value) - share(0)) }}
+      >
+        <span class="zero" />
+        <input
+          type="range"
+          min={min}
+          max={max}
+          step="any"
+          value={value}
+          disabled={!entry.enabled}
+          aria-label={`${titleOf(entry.layer)}: amount`}
+          aria-valuetext={text}
+          title="Double-click resets"
+          onPointerDown={interrupt}
+          onInput={(event) => slide(entry.key, event.currentTarget.valueAsNumber)}
+          onChange={() => settle(entry.key)}
+          onDblClick={() => setValue(entry.key, 0)}
+          onKeyDown={(event) => {
+            interrupt();
+            if (!event.shiftKey && !event.altKey && event.key.startsWith('Arrow')) {
+              // step="any" gives the arrows a step of 1 in some browsers
+              event.preventDefault();
+              const sign = event.key === 'ArrowRight' || event.key === 'ArrowUp' ? 1 : -1;
+              setValue(entry.key, sliderValue(entry) + sign * unit);
+            } else onKeyDown(event);
+          }}
+        />
+      </div>
+      {measure && (
+        <p class="measure">
+          <span class="quiet">{measureName(measure)}</span>
+          {value !== 0 && (
+            <span class="from">
+              {formatMeasure(measure.what, rest, Math.max(rest, now))} <span aria-hidden="true">→</span>
+            </span>
+          )}
+          <TypedValue entry={entry} measure={measure} now={now} rest={rest} />
+        </p>
+      )}
+    </div>
+  );
+}
+
+const measureName = ({ part, what }: Measure) => {
+  const verb = what === 'distance' ? 'moved' : what === 'angle' ? 'turned' : what;
+  return part === null ? verb : `${nameOf(document.value, part)} ${verb}`;
+};
+
+interface Reading {
+  readonly text: string;
+  readonly measure: Measure | null;
+  readonly rest: number;
+  readonly now: number;
+}
+
+const measures = new WeakMap<LayerEntry['layer'], Measure | null>();
+
+function readingOf(entry: LayerEntry): Reading {
+  step.value; // reads the evaluator below, which is no signal
+  const value = sliderValue(entry);
+  const plain = { text: value.toFixed(2), measure: null, rest: 0, now: 0 };
+  const state = compiled.value;
+  const shape = document.value.model?.shape;
+  if (state.kind !== 'ready' || shape === undefined || !entry.enabled) return plain;
+  const { layer } = entry;
+  if (!measures.has(layer)) {
+    const seed = layer.statements.find(({ why }) => why?.kind === 'seed') ?? layer.statements[0];
+    measures.set(layer, measureOf(shape, seed));
+  }
+  const measure = measures.get(layer) ?? null;
+  if (measure === null) return plain;
+  const now = measure.read(state.evaluator);
+  const rest = probe(entry, measure, state.evaluator, [0])[0] ?? now;
+  const before = formatMeasure(measure.what, rest, Math.max(rest, now));
+  const after = formatMeasure(measure.what, now, Math.max(rest, now));
+  return { text: `${measureName(measure)} ${before} to ${after}`, measure, rest, now };
+}
+
+/** Reads a measure at other values of the slider, then puts everything back. */
+function probe(entry: LayerEntry, measure: Measure, evaluator: Evaluator, at: readonly number[]): number[] {
+  const layers = document.peek().layers.filter(({ enabled }) => enabled);
+  const values = layers.map(sliderValue);
+  const index = layers.findIndex(({ key }) => key === entry.key);
+  const read = at.map((value) => {
+    evaluator.evaluate(values.map((other, i) => (i === index ? value : other)));
+    return measure.read(evaluator);
+  });
+  evaluator.evaluate(values);
+  return read;
+}
+
+/** The slider value at which a measure reads `wanted`, or the nearest there is: a scan, then bisection. */
+function solveFor(entry: LayerEntry, measure: Measure, wanted: number): number {
+  const state = compiled.peek();
+  if (state.kind !== 'ready') return sliderValue(entry);
+  const { min, max } = entry.layer.parameter;
+  const read = (x: number) => probe(entry, measure, state.evaluator, [x])[0] ?? Number.NaN;
+  const samples = Array.from({ length: 65 }, (_, i) => min + ((max - min) * i) / 64);
+  const errors = samples.map((x) => read(x) - wanted);
+  const nearest = (value: number) => Math.abs(value);
+  let best = errors.reduce((found, error, i) => (nearest(error) < nearest(errors[found] ?? 0) ? i : found), 0);
+  for (let i = 0; i < 64; i++) if ((errors[i] ?? 0) * (errors[i + 1] ?? 0) < 0) best = i;
+  let [low, high] = [samples[best] ?? 0, samples[best + 1] ?? samples[best] ?? 0];
+  const rising = (errors[best + 1] ?? 0) > (errors[best] ?? 0);
+  if ((errors[best] ?? 0) * (errors[best + 1] ?? 1) >= 0) return low;
+  for (let i = 0; i < 40; i++) {
+    const middle = (low + high) / 2;
+    if (read(middle) < wanted === rising) low = middle;
+    else high = middle;
+  }
+  return (low + high) / 2;
+}
+
+interface TypedValueProps {
+  readonly entry: LayerEntry;
+  readonly measure: Measure;
+  readonly now: number;
+  readonly rest: number;
+}
+
+function TypedValue({ entry, measure, now, rest }: TypedValueProps) {
+  const typed = useSignal<string | null>(null);
+  const wrong = useSignal(false);
+  const like = Math.max(rest, now);
+  const commit = () => {
+    if (typed.value === null) return;
+    const wanted = parseMeasure(measure.what, typed.value, like);
+    wrong.value = wanted === null;
+    if (wanted === null) return;
+    typed.value = null;
+    setValue(entry.key, solveFor(entry, measure, wanted));
+  };
+  return (
+    <input
+      class="typed"
+      type="text"
+      inputMode="decimal"
+      disabled={!entry.enabled}
+      aria-label={`${measureName(measure)}, type a value`}
+      aria-invalid={wrong.value}
+      value={typed.value ?? formatMeasure(measure.what, now, like)}
+      onFocus={(event) => event.currentTarget.select()}
+      onInput={(event) => {
+        typed.value = event.currentTarget.value;
+      }}
+      onBlur={commit}
+      onKeyDown={(event) => {
+        if (event.key === 'Enter') commit();
+        if (event.key === 'Escape') {
+          typed.value = null;
+          wrong.value = false;
+        }
+      }}
+    />
+  );
+}

@@ -1,0 +1,88 @@
+// What buttons, keys and drops have in common: opening files, exporting, sharing.
+import { signal } from '@preact/signals';
+import { models } from '../session/core';
+import { programOf } from '../session/document';
+import { type FileSet, sessionText } from '../session/files';
+import type { ExportOptions } from '../session/model_core';
+import { openFiles, openSaved } from '../session/open';
+import { document, run, say, selection } from '../session/session';
+import { fragmentOf } from '../share/link';
+import { readSavedText, save } from '../share/saved';
+import { stage } from './view';
+
+export type DialogName = 'open' | 'share' | 'help';
+export const dialog = signal<DialogName | null>(null);
+
+/** Opens what was dropped or picked: a model, or saved work. */
+export async function openAny(reading: Promise<FileSet>): Promise<boolean> {
+  const core = models.peek();
+  if (core === null) {
+    say('The core is still starting. Try again in a moment.', 'error');
+    return false;
+  }
+  const files = await run('Reading the files', () => reading);
+  if (files === null || files.size === 0) return false;
+  const text = sessionText(files);
+  if (text === null) return openFiles(core, files);
+  const read = readSavedText(text);
+  if (!read.ok) {
+    say(read.text, 'error');
+    return false;
+  }
+  return openSaved(core, read.saved);
+}
+
+function download(name: string, content: Blob): void {
+  const url = URL.createObjectURL(content);
+  const link = Object.assign(globalThis.document.createElement('a'), { href: url, download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
+/** A file name from the model's name: no path, no control characters. */
+function fileName(suffix: string): string {
+  const name = document.peek().model?.shape.name ?? 'model';
+  return `${name.replace(/[^\p{L}\p{N} _.-]/gu, '').trim() || 'model'}${suffix}`;
+}
+
+const jsonBlob = (value: unknown) => new Blob([JSON.stringify(value, null, 1)], { type: 'application/json' });
+
+export function saveSession(): void {
+  download(fileName('.parsel.json'), jsonBlob(save(document.peek(), stage.peek()?.rig.pose)));
+}
+
+export function exportProgram(): void {
+  const { model, layers } = document.peek();
+  if (model) download(fileName('.program.json'), jsonBlob(programOf(model.shape, layers)));
+}
+
+export async function exportScreenshot(): Promise<void> {
+  const picture = await stage.peek()?.screenshot();
+  if (picture) download(fileName('.png'), picture);
+}
+
+export async function exportModel(kind: 'all' | 'selected' | 'animated'): Promise<void> {
+  const core = models.peek();
+  const { model, layers } = document.peek();
+  if (core === null || model === null) return;
+  const program = programOf(model.shape, layers);
+  const options: ExportOptions = {
+    ...(kind === 'animated' ? { animate: program.layers.at(-1)?.parameter.name ?? '' } : {}),
+    ...(kind === 'selected' ? { only: [selection.peek()?.part ?? ''] } : {}),
+  };
+  const exported = await run('Writing the file', () => core.apply(model, program, options));
+  if (exported === null) return;
+  download(
+    fileName(kind === 'animated' ? '.animated.glb' : '.glb'),
+    new Blob([exported.glb as BlobPart], { type: 'model/gltf-binary' }),
+  );
+  if (exported.warnings.length > 0) say(exported.warnings.slice(0, 3).join(' '));
+}
+
+/** The address of this page with the work in its fragment. */
+export async function shareLink(embed: boolean): Promise<string> {
+  const url = new URL(location.href);
+  url.search = embed ? '?embed' : '';
+  url.hash = await fragmentOf(save(document.peek(), stage.peek()?.rig.pose));
+  return url.href;
+}

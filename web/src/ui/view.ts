@@ -1,0 +1,133 @@
+// The one stage of the page, and what the interface shows on it.
+import { effect, signal, untracked } from '@preact/signals';
+import type { Evaluator } from '../program/compile';
+import type { LoadedModel, ModelFiles } from '../scene/load';
+import type { Tint } from '../scene/model_view';
+import { noTint } from '../scene/model_view';
+import { type Actor, Stage } from '../scene/stage';
+import { openedView, takeLoaded } from '../session/open';
+import { prefersReducedMotion } from '../session/play';
+import { compiled, document, hovered, pointedAt, say, selection, step } from '../session/session';
+import { theme } from './theme';
+
+export const stage = signal<Stage | null>(null);
+/** Model that stands on the stage. */
+export const shown = signal<ModelFiles | null>(null);
+export const showColours = signal(false);
+let actor: Actor | null = null;
+
+export function currentEvaluator(): Evaluator | null {
+  const now = compiled.peek();
+  return now.kind === 'ready' ? now.evaluator : null;
+}
+
+/** Starts the stage on a canvas; answers how to end it. */
+export function mountStage(canvas: HTMLCanvasElement): () => void {
+  const created = new Stage(canvas, prefersReducedMotion());
+  created.onContext = (lost) =>
+    lost ? say('The graphics card was reset. The picture will be back in a moment; your work is kept.') : say('');
+  stage.value = created;
+  const stops = [
+    effect(() => created.setTheme(theme.value)),
+    effect(() => void showModel(created)),
+    effect(() => {
+      step.value;
+      shown.value;
+      const evaluator = untracked(currentEvaluator);
+      if (evaluator) created.update(evaluator);
+    }),
+    effect(() => {
+      const { hidden, model } = document.value;
+      if (shown.value !== model?.files) return;
+      for (const [i, { id }] of (model?.shape.parts ?? []).entries()) actor?.view.setHidden(i, hidden.has(id));
+      created.invalidate();
+    }),
+    effect(() => light(created)),
+  ];
+  return () => {
+    for (const stop of stops) stop();
+    created.dispose();
+    stage.value = null;
+    actor = null;
+    shown.value = null;
+  };
+}
+
+async function showModel(on: Stage): Promise<void> {
+  const { model } = document.value;
+  if (model === null || model.files === untracked(() => shown.value)) return;
+  let loaded: LoadedModel;
+  try {
+    loaded = await takeLoaded(model.files);
+  } catch (error) {
+    return say(`The model cannot be drawn: ${error instanceof Error ? error.message : String(error)}.`, 'error');
+  }
+  if (document.peek().model !== model || stage.peek() !== on) return loaded.dispose();
+  actor = on.show(loaded, model.shape);
+  shown.value = model.files;
+  const evaluator = currentEvaluator();
+  if (evaluator === null) return;
+  on.update(evaluator);
+  const view = openedView.peek();
+  openedView.value = null;
+  on.fit(evaluator, null, false);
+  if (view) on.rig.pose = view;
+}
+
+/** Brings the selected part, or everything, into view. */
+export function focusView(): void {
+  const evaluator = currentEvaluator();
+  const { model } = document.peek();
+  if (!evaluator || model === null) return;
+  const part = selection.peek()?.part;
+  const index = model.shape.parts.findIndex(({ id }) => id === part);
+  stage.peek()?.fit(evaluator, index < 0 ? null : index);
+}
+
+/** Tints and overlays: the selected part lit and the rest a little dimmed, hovered and pointed-at parts lit. */
+function light(on: Stage): void {
+  const { model } = document.value;
+  if (model === null || shown.value !== model.files || actor === null) return;
+  const { accentRgb, groundRgb } = theme.value;
+  const tint = (rgb: readonly [number, number, number], strength: number): Tint => [...rgb, strength];
+  const lit = tint(accentRgb, 0.34);
+  const soft = tint(accentRgb, 0.16);
+  const dimmed = tint(groundRgb, 0.45);
+
+  const selected = expand(selection.value?.part ?? null);
+  const over = expand(hovered.value);
+  const pointed = new Set((pointedAt.value?.parts ?? []).flatMap((id) => [...expand(id)]));
+  const colours = showColours.value;
+  for (const [i, { id }] of model.shape.parts.entries()) {
+    const own = colours ? tint(partColour(i), 0.75) : noTint;
+    const focus = pointed.size > 0 ? pointed : selected;
+    const isLit = focus.has(id);
+    actor.view.setTint(i, isLit ? lit : over.has(id) ? soft : focus.size > 0 && !colours ? dimmed : own);
+  }
+  const relations = (pointedAt.value?.relations ?? []).map((id) =>
+    model.shape.relations.findIndex((relation) => relation.id === id),
+  );
+  const part = model.shape.parts.findIndex(({ id }) => id === selection.value?.part);
+  const evaluator = untracked(currentEvaluator);
+  if (evaluator) {
+    actor.overlays.show({ part, feature: selection.value?.feature ?? [0, 0, 0], relations }, evaluator.corners);
+  }
+  on.invalidate();
+}
+
+/** A virtual part lights its instances. */
+function expand(id: string | null): ReadonlySet<string> {
+  if (id === null) return new Set();
+  const part = document.peek().model?.shape.parts.find((other) => other.id === id);
+  return new Set([id, ...(part?.members ?? [])]);
+}
+
+/** Hues a golden angle apart, so that neighbours in the list differ. */
+function partColour(i: number): [number, number, number] {
+  const hue = (i * 0.381966) % 1;
+  return [0, 1 / 3, 2 / 3].map((shift) => 0.5 + 0.33 * Math.cos(2 * Math.PI * (hue + shift))) as [
+    number,
+    number,
+    number,
+  ];
+}

@@ -1,0 +1,66 @@
+// What stands on the stage when the page has loaded: the work of a link, else that of the last visit, else the first
+// model of the gallery with an edit that shows itself once.
+import { effect } from '@preact/signals';
+import { restore, startAutosave } from '../session/autosave';
+import { models } from '../session/core';
+import { loadGallery } from '../session/gallery';
+import type { ModelCore } from '../session/model_core';
+import { openGallery, openSaved, reopen } from '../session/open';
+import { playOnce } from '../session/play';
+import { document, propagate, say } from '../session/session';
+import { readFragment } from '../share/link';
+
+/** Whether this page is a viewer in somebody's frame: it neither restores nor keeps anything. */
+export const isEmbedded = new URLSearchParams(location.search).has('embed');
+
+/** Call once; answers how to stop listening. */
+export function welcome(): () => void {
+  let stopSaving = () => {};
+  const stopWaiting = effect(() => {
+    const core = models.value;
+    if (core === null) return;
+    queueMicrotask(() => {
+      stopWaiting();
+      void begin(core).finally(() => {
+        if (!isEmbedded) stopSaving = startAutosave();
+      });
+    });
+  });
+  const onHashChange = () => {
+    const core = models.peek();
+    if (core) void openFragment(core);
+  };
+  addEventListener('hashchange', onHashChange);
+  return () => {
+    stopWaiting();
+    stopSaving();
+    removeEventListener('hashchange', onHashChange);
+  };
+}
+
+/** Whether there was a link to open. The fragment is taken out of the address: it describes a moment, not the page. */
+async function openFragment(core: ModelCore): Promise<boolean> {
+  const read = await readFragment(location.hash);
+  if (read === null) return false;
+  if (!isEmbedded) history.replaceState(null, '', location.pathname + location.search);
+  if (!read.ok) {
+    say(read.text, 'error');
+    return false;
+  }
+  await openSaved(core, read.saved);
+  return true;
+}
+
+async function begin(core: ModelCore): Promise<void> {
+  const kept = isEmbedded ? Promise.resolve(null) : restore();
+  if (await openFragment(core)) return;
+  const last = await kept;
+  if (last !== null && (await reopen(core, last.files, last.source, last.saved))) return;
+  const [first] = await loadGallery();
+  if (first === undefined || document.peek().model !== null) return;
+  if (!(await openGallery(core, first.id))) return;
+  const suggestion = first.suggestions.find(({ edit }) => edit !== null);
+  if (!suggestion?.edit) return;
+  const key = await propagate(core, suggestion.edit, suggestion.request);
+  if (key !== null) playOnce(key);
+}
