@@ -7,6 +7,9 @@
 #include <stdexcept>
 
 #include "core/edit/amount.h"
+#include "core/edit/apply.h"
+#include "core/gallery/gallery.h"
+#include "core/propagate/propagate.h"
 #include "core/propagate/solve.h"
 #include "core/shape/abstraction.h"
 
@@ -16,8 +19,15 @@ using nlohmann::json;
 
 namespace {
 
-/// The model that the page has open. The page opens it again in a new worker.
-std::optional<Abstraction> model;
+/// The model that the page has open, and the file it came from. The page opens it again in a new worker.
+struct OpenModel {
+  Shape shape;
+  std::string file;
+  ExternalBuffers external;
+};
+std::optional<OpenModel> model;
+
+Error no_model() { return {"wasm", "", "no model is open", "open one first"}; }
 
 Error wrong_parameter(const std::string& name, const std::string& expected) {
   return {"wasm", name, "it is not " + expected, "please report this: page and core disagree"};
@@ -80,8 +90,61 @@ Result<Output> open(const Input& input) {
   }
   Result<Abstraction> abstraction = abstract_shape(input.buffers[0], *name, external);
   if (!abstraction.ok()) return abstraction.error();  // the open model stays
-  model = std::move(*abstraction);
+  model = OpenModel{std::move(abstraction->shape), input.buffers[0], std::move(external)};
   return Output{{{"shape", to_json(model->shape)}}, {}};
+}
+
+/// edit: parsel/edit v1.
+Result<Output> propagate_edit(const Input& input) {
+  if (!model) return no_model();
+  const Result<EditRequest> request = edit_request_from_json(input.parameters.value("edit", json()));
+  if (!request.ok()) return request.error();
+  const Result<Propagation> found = propagate(model->shape, *request, {}, input.progress);
+  if (!found.ok()) return found.error();
+  return Output{{{"program", to_json(found->program)}, {"trace", to_json(found->trace)}}, {}};
+}
+
+/// program: parsel/program v1; values: one a layer; animate: a parameter's name; only: ids of parts.
+Result<Output> apply(const Input& input) {
+  if (!model) return no_model();
+  const Result<Program> program = program_from_json(input.parameters.value("program", json()));
+  if (!program.ok()) return program.error();
+  if (const Status valid = validate(*program, model->shape); !valid.ok()) return valid.error();
+  std::vector<double> values;
+  for (const json& value : input.parameters.value("values", json::array())) {
+    if (!value.is_number()) return wrong_parameter("values", "a list of numbers");
+    values.push_back(value.get<double>());
+  }
+  std::optional<Animate> animate;
+  if (input.parameters.contains("animate")) {
+    const Result<std::string> parameter = text_parameter(input, "animate");
+    if (!parameter.ok()) return parameter.error();
+    animate = Animate{*parameter};
+  }
+  ApplyOptions options;
+  options.external = model->external;
+  for (const json& id : input.parameters.value("only", json::array())) {
+    const auto part = id.is_string() ? model->shape.find_part(id.get<std::string>()) : std::nullopt;
+    if (!part) return wrong_parameter("only", "a list of parts of the model");
+    options.only_parts.push_back(*part);
+  }
+  Result<Applied> applied = apply_program(model->file, model->shape, *program, values, animate, std::move(options));
+  if (!applied.ok()) return applied.error();
+  json warnings = json::array();
+  for (const Warning& warning : applied->warnings) warnings.push_back({{"place", warning.place}, {"text", warning.text}});
+  return Output{{{"warnings", std::move(warnings)}}, {std::move(applied->glb)}};
+}
+
+/// Every model of the gallery: one buffer each, in the order of the list.
+Result<Output> gallery(const Input&) {
+  Output output{{{"models", json::array()}}, {}};
+  for (const GalleryModel& entry : gallery_models()) {
+    Result<GalleryAsset> asset = build(entry);
+    if (!asset.ok()) return asset.error();
+    output.result["models"].push_back(gallery_entry(entry, *asset));
+    output.buffers.push_back(std::move(asset->glb));
+  }
+  return output;
 }
 
 /// Bytes of linear memory: it grows and never shrinks, so this is the peak as well.
@@ -111,8 +174,15 @@ Result<Output> fail(const Input& input) {
 }
 
 constexpr std::array all_methods = {
-    Method{"version", version}, Method{"warm_up", warm_up}, Method{"solve", solve},
-    Method{"open", open},       Method{"memory", memory},   Method{"fail", fail},
+    Method{"version", version},
+    Method{"warm_up", warm_up},
+    Method{"solve", solve},
+    Method{"open", open},
+    Method{"propagate", propagate_edit},
+    Method{"apply", apply},
+    Method{"gallery", gallery},
+    Method{"memory", memory},
+    Method{"fail", fail},
 };
 
 }  // namespace

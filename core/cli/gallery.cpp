@@ -15,17 +15,10 @@ int run(const Arguments& arguments) {
   for (const GalleryModel& model : gallery_models()) {
     const Result<GalleryAsset> asset = build(model);
     if (!asset) return refuse(asset.error());
-    const std::string file = model.id + ".glb";
-    const Status written = write_file(folder + "/" + file, asset->glb);
+    nlohmann::json entry = gallery_entry(model, *asset);
+    const Status written = write_file(folder + "/" + entry["file"].get<std::string>(), asset->glb);
     if (!written) return refuse(written.error());
-    nlohmann::json requests = nlohmann::json::array();
-    for (const GalleryEdit& edit : asset->edits) requests.push_back(edit.request);
-    list.push_back({{"id", model.id},
-                    {"title", model.title},
-                    {"file", file},
-                    {"bytes", asset->glb.size()},
-                    {"parts", asset->parts.size()},
-                    {"requests", std::move(requests)}});
+    list.push_back(std::move(entry));
   }
   const Status written = write_file(folder + "/gallery.json", list.dump(1) + "\n");
   if (!written) return refuse(written.error());

@@ -17,7 +17,8 @@ int run(const Arguments& arguments) {
   const Result<std::string> text = read_file(path);
   if (!text.ok()) return refuse(text.error());
   const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
-  if (json.is_discarded()) return refuse({"cli/propagate", path, "the file is not JSON", "check its brackets and commas"});
+  if (json.is_discarded())
+    return refuse({"cli/propagate", path, "the file is not JSON", "check its brackets and commas"});
   const Result<EditRequest> request = edit_request_from_json(json);
   if (!request.ok()) return refuse(request.error());
   PropagateOptions options;
@@ -27,8 +28,10 @@ int run(const Arguments& arguments) {
   const Result<Propagation> found = propagate(model->abstraction.shape, *request, options);
   if (!found.ok()) return refuse(found.error());
   if (arguments.has("--trace")) {
-    const std::string trace = to_json(found->trace).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-    if (const Status written = write_file(arguments.option("--trace"), trace); !written.ok()) return refuse(written.error());
+    const std::string trace =
+        to_json(found->trace).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    if (const Status written = write_file(arguments.option("--trace"), trace); !written.ok())
+      return refuse(written.error());
   }
   for (const std::string& note : found->trace.notes) std::cerr << "note: " << note << '\n';
   return write_json(arguments, to_json(found->program));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/gallery/model_builder.h"
 
@@ -51,6 +52,19 @@ Result<GalleryAsset> build(const GalleryModel& model, const GalleryValues& overr
   gallery::ModelBuilder builder(model, std::move(values), &nominal.sizes());
   model.layout(builder);
   return builder.finish();
+}
+
+nlohmann::json gallery_entry(const GalleryModel& model, const GalleryAsset& asset) {
+  nlohmann::json requests = nlohmann::json::array();
+  for (const GalleryEdit& edit : asset.edits) {
+    requests.push_back({{"request", edit.request}, {"edit", nlohmann::json::parse(edit.json)}});
+  }
+  return {{"id", model.id},
+          {"title", model.title},
+          {"file", model.id + ".glb"},
+          {"bytes", asset.glb.size()},
+          {"parts", asset.parts.size()},
+          {"requests", std::move(requests)}};
 }
 
 Result<GalleryAsset> scaling_model(int part_count) {

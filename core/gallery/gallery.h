@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -82,6 +83,9 @@ const GalleryModel* find_gallery_model(std::string_view id);
 /// Builds a model with its default values except for `overrides`. Deterministic. Refuses unknown names and values that
 /// are not finite, out of range, or (unit "count") not whole.
 Result<GalleryAsset> build(const GalleryModel& model, const GalleryValues& overrides = {});
+
+/// An entry of gallery.json: {"id","title","file","bytes","parts","requests":[{"request","edit": parsel/edit v1}]}.
+nlohmann::json gallery_entry(const GalleryModel& model, const GalleryAsset& asset);
 
 /// A wall of shelves with exactly `part_count` parts (5 to 1000), to measure how time grows with size. Not in the list.
 Result<GalleryAsset> scaling_model(int part_count);

@@ -26,12 +26,32 @@ describe('the boundary between the page and the core', () => {
     version: {},
     warm_up: {},
     solve: { equation: '2*y - x', unknown: 'y' },
+    gallery: {},
+    memory: {},
   };
   it.each(Object.entries(examples))('%s answers what its type says', (method, parameters) => {
     v.parse(methodSchemas[method as Method].parameters, parameters);
     const { message } = invoke(method, parameters);
     const { result } = v.parse(v.strictObject({ result: v.unknown() }), message);
     v.parse(methodSchemas[method as Method].result, result);
+  });
+
+  it('opens a gallery model, propagates its edits and applies the programs', () => {
+    const { message, buffers } = invoke('gallery', {});
+    const { models } = (message as { result: { models: { id: string; requests: { edit: unknown }[] }[] } }).result;
+    expect(models.length).toBe(buffers.length);
+    const index = models.findIndex((model) => model.id === 'chair');
+    const file = buffers[index] as Uint8Array;
+    const opened = invoke('open', { name: 'chair', external: [] }, [file]).message as { result: unknown };
+    v.parse(methodSchemas.open.result, opened.result);
+
+    const propagated = invoke('propagate', { edit: models[index]?.requests[0]?.edit }).message as { result: unknown };
+    const { program } = v.parse(methodSchemas.propagate.result, propagated.result);
+    const atRest = invoke('apply', { program, values: [0] });
+    v.parse(methodSchemas.apply.result, (atRest.message as { result: unknown }).result);
+    expect(Buffer.from(atRest.buffers[0] as Uint8Array).equals(Buffer.from(file))).toBe(true);
+    const edited = invoke('apply', { program, values: [0.1] });
+    expect(Buffer.from(edited.buffers[0] as Uint8Array).equals(Buffer.from(file))).toBe(false);
   });
 
   it('answers with the version of the project', async () => {
@@ -51,6 +71,9 @@ describe('the boundary between the page and the core', () => {
     ['an exception inside the core', 'fail', { kind: 'exception' }],
     ['an equation that is none', 'solve', { equation: '2*(y', unknown: 'y' }],
     ['an unknown that is no name', 'solve', { equation: '2*y', unknown: '2' }],
+    ['an edit of no kind', 'propagate', { edit: 7 }],
+    ['a program of no kind', 'apply', { program: {}, values: [] }],
+    ['a model that is none', 'open', { name: 'x', external: [] }],
     ['a missing parameter', 'solve', { equation: '2*y' }],
     ['a parameter of another type', 'solve', { equation: 7, unknown: 'y' }],
   ])('answers %s with an error value', (_, method, parameters) => {

@@ -42,6 +42,13 @@ export const methodSchemas = {
     }),
     result: v.strictObject({ warnings: v.array(v.strictObject({ place: v.string(), text: v.string() })) }),
   },
+  /** Every model of the gallery: entries of gallery.json, and one GLB each as buffers. */
+  gallery: {
+    parameters: v.strictObject({}),
+    result: v.strictObject({
+      models: v.array(v.looseObject({ id: v.string(), title: v.string(), file: v.string() })),
+    }),
+  },
   /** Goes wrong on purpose: how the recovery below is tested. */
   fail: {
     parameters: v.strictObject({ kind: v.picklist(['exception', 'abort', 'memory', 'hang']) }),
