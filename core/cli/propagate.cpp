@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/cli/command.h"
-#include "core/cli/model.h"
+#include "core/cli/input.h"
 #include "core/propagate/propagate.h"
 
 namespace parsel::cli {
@@ -11,20 +11,17 @@ namespace {
 
 int run(const Arguments& arguments) {
   if (arguments.positional.size() != 2) return misuse("propagate takes a model and an edit");
-  const Result<Model> model = load_model(arguments.positional[0]);
-  if (!model.ok()) return refuse(model.error());
-  const std::string& path = arguments.positional[1];
-  const Result<std::string> text = read_file(path);
-  if (!text.ok()) return refuse(text.error());
-  const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
-  if (json.is_discarded()) return refuse({"cli/propagate", path, "the file is not JSON", "check its brackets and commas"});
-  const Result<EditRequest> request = edit_request_from_json(json);
+  const Result<Shape> shape = read_shape(arguments.positional[0]);
+  if (!shape) return refuse(shape.error());
+  const Result<nlohmann::json> json = read_json(arguments.positional[1]);
+  if (!json) return refuse(json.error());
+  const Result<EditRequest> request = edit_request_from_json(*json);
   if (!request.ok()) return refuse(request.error());
   PropagateOptions options;
   options.request = arguments.option("--request");
   options.neighbour_edits = !arguments.has("--no-neighbour-edits");
   options.breaking_edits = !arguments.has("--no-breaking-edits");
-  const Result<Propagation> found = propagate(model->abstraction.shape, *request, options);
+  const Result<Propagation> found = propagate(*shape, *request, options);
   if (!found.ok()) return refuse(found.error());
   if (arguments.has("--trace")) {
     const std::string trace = to_json(found->trace).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
