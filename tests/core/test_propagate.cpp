@@ -5,6 +5,7 @@
 
 #include "box_shapes.h"
 #include "core/edit/evaluate.h"
+#include "core/propagate/check.h"
 #include "core/propagate/propagate.h"
 
 using namespace parsel;
@@ -19,6 +20,8 @@ Propagation run(const Shape& shape, const json& edit, const PropagateOptions& op
   if (!found.ok()) FAIL(found.error().message());
   const Status valid = validate(found->program, shape);
   if (!valid.ok()) FAIL(valid.error().message());
+  const CheckReport checked = check_program(shape, found->program, to_json(found->trace), 0);
+  for (const Finding& finding : checked.findings) FAIL_CHECK(finding.place << ": " << finding.text);
   return std::move(found.value());
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/propagate/check.h"
 #include "core/propagate/propagate.h"
 #include "gallery_truth.h"
 
@@ -46,6 +47,8 @@ TEST_CASE("gallery edits end where the generator builds the edited model") {
       options.request = edit.request;
       const auto found = propagate(shape, *request, options);
       if (!found.ok()) FAIL(found.error().message());
+      const CheckReport checked = check_program(shape, found->program, to_json(found->trace), 0);
+      for (const Finding& finding : checked.findings) FAIL_CHECK(finding.place << ": " << finding.text);
       const Layer& layer = found->program.layers[0];
       const Evaluator evaluate(found->program, shape);
       std::printf("%-16s %-22s %4zu %7.3f %7.3f ", model.id.c_str(), edit.id.c_str(), layer.statements.size(),
