@@ -27,7 +27,9 @@ struct OpenModel {
 };
 std::optional<OpenModel> model;
 
-Error no_model() { return {"wasm", "", "no model is open", "open one first"}; }
+Error no_model() {
+  return {"wasm", "", "no model is open", "open one first"};
+}
 
 Error wrong_parameter(const std::string& name, const std::string& expected) {
   return {"wasm", name, "it is not " + expected, "please report this: page and core disagree"};
@@ -131,7 +133,8 @@ Result<Output> apply(const Input& input) {
   Result<Applied> applied = apply_program(model->file, model->shape, *program, values, animate, std::move(options));
   if (!applied.ok()) return applied.error();
   json warnings = json::array();
-  for (const Warning& warning : applied->warnings) warnings.push_back({{"place", warning.place}, {"text", warning.text}});
+  for (const Warning& warning : applied->warnings)
+    warnings.push_back({{"place", warning.place}, {"text", warning.text}});
   return Output{{{"warnings", std::move(warnings)}}, {std::move(applied->glb)}};
 }
 

@@ -114,7 +114,8 @@ class Collector {
     if (!allows(hint_, what.op)) return;
     const Corners field = unit_field(what, rest_);
     if (field.cwiseAbs().maxCoeff() < 1e-6) return;
-    if (seen_.insert(key_of(what, field)).second) candidates_.push_back({what, Anchor::middle, field, symmetry_cost, false});
+    if (seen_.insert(key_of(what, field)).second)
+      candidates_.push_back({what, Anchor::middle, field, symmetry_cost, false});
   }
 
   void add_group(Anchor anchor) {
@@ -286,8 +287,8 @@ std::vector<Candidate> neighbour_candidates(const Shape& shape, PartIndex part, 
     collector.add_whole(other);
     ResolvedOperator motion;
     motion.op = Op::translate;
-    for (const Vec3& direction : {Vec3(own.point(Vec3::Zero()) - other.point(Vec3::Zero())), constraint.goal.back(),
-                                  constraint.goal.front()}) {
+    for (const Vec3& direction :
+         {Vec3(own.point(Vec3::Zero()) - other.point(Vec3::Zero())), constraint.goal.back(), constraint.goal.front()}) {
       if (direction.norm() < exact) continue;
       motion.direction = direction.normalized();
       collector.add(motion, 0);

@@ -26,8 +26,8 @@ struct Candidate {
 };
 
 /// Whether a group that must grow along its row (or outwards) should stretch its instances rather than part them: they
-/// fill the row like drawers, covering more than 3/4 of their spacing, or reach inwards like spokes, over more than half
-/// of the radius to either side. What fills a space goes on filling it.
+/// fill the row like drawers, covering more than 3/4 of their spacing, or reach inwards like spokes, over more than
+/// half of the radius to either side. What fills a space goes on filling it.
 bool fills_its_extent(const Shape& shape, PartIndex parent);
 
 /// Operators × the 27 points of the part × its own and the global axes × features, one for each displacement field.

@@ -37,7 +37,9 @@ std::vector<ClosedForm> driving_amounts(const std::vector<PointConstraint>& cons
         form.expression = counted(step.amount);
         for (double& value : form.values) value = std::floor(value + noise);
       }
-      const auto equals = [&form](const ClosedForm& other) { return largest_difference(form.values, other.values) < noise; };
+      const auto equals = [&form](const ClosedForm& other) {
+        return largest_difference(form.values, other.values) < noise;
+      };
       if (std::none_of(driving.begin(), driving.end(), equals)) driving.push_back(std::move(form));
     }
   }
@@ -95,7 +97,8 @@ std::optional<ClosedForm> AmountSolver::shorten(double factor, const ClosedForm&
   const double reach = candidate.field.cwiseAbs().maxCoeff();
   const ex exact_factor = number(factor);
   std::vector<ex> factors;
-  for (const double tolerance : {1e-3, 1e-5, 1e-8}) factors.push_back(Amount(exact_factor).simplified(tolerance).expression());
+  for (const double tolerance : {1e-3, 1e-5, 1e-8})
+    factors.push_back(Amount(exact_factor).simplified(tolerance).expression());
   factors.push_back(exact_factor);
   for (const ex& simple : factors) {
     const double value = Amount(simple).compile({})(nullptr);
@@ -117,7 +120,8 @@ std::optional<ClosedForm> AmountSolver::accept(const ex& expression, const Candi
     const ex simple = Amount(expression).simplified(tolerance).expression();
     if (!simple.has(parameter_symbol(parameter_))) continue;
     const auto values = sampled(simple, parameter_, at_);
-    if (values && largest_difference(*values, wanted) * reach <= simplification_slack) return ClosedForm{simple, *values};
+    if (values && largest_difference(*values, wanted) * reach <= simplification_slack)
+      return ClosedForm{simple, *values};
   }
   const auto values = sampled(expression, parameter_, at_);
   if (!values || largest_difference(*values, wanted) * reach > simplification_slack) return std::nullopt;

@@ -40,7 +40,8 @@ class AmountSolver {
  private:
   std::optional<ClosedForm> from_equation(const Candidate& candidate, const Samples& wanted);
   std::optional<ClosedForm> from_angle(const Candidate& candidate, const Samples& wanted);
-  std::optional<ClosedForm> accept(const GiNaC::ex& expression, const Candidate& candidate, const Samples& wanted) const;
+  std::optional<ClosedForm> accept(const GiNaC::ex& expression, const Candidate& candidate,
+                                   const Samples& wanted) const;
   std::optional<ClosedForm> shorten(double factor, const ClosedForm& drive, const Candidate& candidate,
                                     const Samples& wanted) const;
   std::size_t strongest(const Candidate& candidate) const;

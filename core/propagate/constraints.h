@@ -24,9 +24,9 @@ using Edits = PartData<std::optional<PartEdit>>;
 
 struct PointConstraint {
   RelationIndex relation;
-  Weights weights;                     ///< of the point in the part
-  std::array<Vec3, sample_count> goal; ///< its prescribed displacement
-  PartIndex other;                     ///< the edited part
+  Weights weights;                      ///< of the point in the part
+  std::array<Vec3, sample_count> goal;  ///< its prescribed displacement
+  PartIndex other;                      ///< the edited part
   Weights other_weights;
   std::optional<Vec3> mirror;  ///< reflection: unit normal of the plane
 };

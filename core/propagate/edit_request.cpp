@@ -27,15 +27,14 @@ std::string pointer(const std::string& parent, const std::string& key) {
 
 /// The statements are those of a program's layer: its reader checks them.
 Result<std::vector<Statement>> read_seed(const json& seed) {
-  const json program = {
-      {"format", "parsel/program"},
-      {"version", 1},
-      {"shape", {{"name", ""}, {"sha256", ""}}},
-      {"layers",
-       {{{"request", ""},
-         {"parameter", {{"name", edit_parameter}, {"min", -tau}, {"max", tau}, {"value", 0}}},
-         {"statements", seed},
-         {"relations", json::array()}}}}};
+  const json program = {{"format", "parsel/program"},
+                        {"version", 1},
+                        {"shape", {{"name", ""}, {"sha256", ""}}},
+                        {"layers",
+                         {{{"request", ""},
+                           {"parameter", {{"name", edit_parameter}, {"min", -tau}, {"max", tau}, {"value", 0}}},
+                           {"statements", seed},
+                           {"relations", json::array()}}}}};
   auto read = program_from_json(program);
   if (read.ok()) return std::move(read.value().layers[0].statements);
   Error error = read.error();
@@ -172,7 +171,8 @@ Status check_fields(const Statement& statement, const std::string& place) {
   if (needs_normal(statement.op) && !statement.normal) return refused(place, op + " has no normal", "give a normal");
   for (const auto& direction : {statement.direction, statement.normal}) {
     const Vec3* literal = direction ? std::get_if<Vec3>(&*direction) : nullptr;
-    if (literal && !(literal->norm() > 1e-9)) return refused(place, "a direction has no length", "give a non-zero vector");
+    if (literal && !(literal->norm() > 1e-9))
+      return refused(place, "a direction has no length", "give a non-zero vector");
   }
   if (statement.op == Op::keep_fixed) return success();
   const std::vector<std::string> names = statement.amount.parameters();
@@ -191,7 +191,8 @@ Status resolve_disabled(const EditRequest& request, const Shape& shape, Resolved
     const std::string place = "/disabled/" + std::to_string(i);
     if (id.rfind("kind:", 0) == 0) {
       const auto kind = relation_kind(std::string_view(id).substr(5));
-      if (!kind) return refused(place, "is no kind of relation", "use kind:reflection, kind:translation, kind:rotation, …");
+      if (!kind)
+        return refused(place, "is no kind of relation", "use kind:reflection, kind:translation, kind:rotation, …");
       for (const RelationIndex r : shape.relations.indices()) {
         if (shape.relations[r].kind == *kind) resolved.disabled.insert(r);
       }
@@ -254,7 +255,8 @@ Result<ResolvedRequest> resolve(const EditRequest& request, const Shape& shape) 
   }
   for (const RelationIndex group : as_group) {
     if (dissolved.count(group) == 0) continue;
-    return refused("/seed", "group '" + shape.relations[group].id + "' is edited as one, but its instances are on their own",
+    return refused("/seed",
+                   "group '" + shape.relations[group].id + "' is edited as one, but its instances are on their own",
                    "edit the group or its instances, not both, and do not disable a group that you edit");
   }
   if (Status s = resolve_hints(request, shape, dissolved, resolved); !s.ok()) return s.error();

@@ -1,7 +1,7 @@
 // What propagation starts from: seed edits, relations that shall not count, and hints. Format `parsel/edit` v1:
 //   {"seed": [statements, amounts in x], "disabled": ["r1", "kind:reflection"], "hints": {"part id": "translate"}}
-// "disabled" and "hints" may be left out, as may "format": "parsel/edit" with "version": 1. A part is named by its id or by
-// node:<glTF node index>.
+// "disabled" and "hints" may be left out, as may "format": "parsel/edit" with "version": 1. A part is named by its id
+// or by node:<glTF node index>.
 #pragma once
 
 #include <map>

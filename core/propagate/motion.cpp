@@ -130,7 +130,8 @@ SymbolicMotion symbolic_motion(const Shape& shape, PartIndex part, const std::ve
     }
     for (std::size_t k = 0; k < 8; ++k) {
       if (!selects(what.feature, static_cast<int>(k))) continue;
-      // Every operator but rotate adds amount · L(H − o) + amount · t, L linear; rotate adds sin·(n × r) + (cos − 1)·r⊥.
+      // Every operator but rotate adds amount · L(H − o) + amount · t, L linear; rotate adds sin·(n × r) + (cos −
+      // 1)·r⊥.
       std::array<ex, 3> r;
       for (std::size_t c = 0; c < 3; ++c) {
         const auto i = static_cast<int>(c);

@@ -1,7 +1,7 @@
 // How a part moves: the steps of its edit, numerically at a few values of the parameter and in closed form.
 //
-// The search for edits works on numbers at sample values of the parameter; only what survives becomes algebra. So a step
-// carries its amount twice, as an expression and as its samples.
+// The search for edits works on numbers at sample values of the parameter; only what survives becomes algebra. So a
+// step carries its amount twice, as an expression and as its samples.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -50,8 +50,8 @@ Motion motion_of(const Shape& shape, PartIndex part, const std::vector<Step>& st
 using SymbolicMotion = std::array<std::array<GiNaC::ex, 3>, 8>;
 SymbolicMotion symbolic_motion(const Shape& shape, PartIndex part, const std::vector<Step>& steps);
 
-/// What change_count adds in closed form: the amount rounded down as the evaluator does it (core/edit/evaluate.h), jumps at
-/// the same values of the parameter.
+/// What change_count adds in closed form: the amount rounded down as the evaluator does it (core/edit/evaluate.h),
+/// jumps at the same values of the parameter.
 GiNaC::ex counted(const GiNaC::ex& amount);
 
 /// The closed form of a double: an exact rational when it is a short decimal, 0 when it is noise.

@@ -126,7 +126,8 @@ class Loop {
             }
           }
         }
-        if (good < sample_count) return good == 0 ? (batch == 0 ? 0.0 : at[0] - sign * options_.limit / grid) : at[good - 1];
+        if (good < sample_count)
+          return good == 0 ? (batch == 0 ? 0.0 : at[0] - sign * options_.limit / grid) : at[good - 1];
       }
       return sign * options_.limit;
     };
@@ -172,7 +173,8 @@ class Loop {
       std::vector<PointConstraint> constraints;
       for (const RelationIndex relation : graph_.relations(part)) {
         const PartIndex other = graph_.other(relation, part);
-        if (edits_[other] && !edits_[other]->steps.empty()) add_constraints(graph_, relation, part, edits_, constraints);
+        if (edits_[other] && !edits_[other]->steps.empty())
+          add_constraints(graph_, relation, part, edits_, constraints);
       }
       const RelationResiduals off = residuals(constraints, still());
       TraceStep trace;
@@ -222,7 +224,9 @@ class Loop {
     std::optional<PartIndex> best;
     std::pair<bool, int> most{false, 0};
     for (const PartIndex part : graph_.parts()) {
-      if (edits_[part] || std::find(left_alone_.begin(), left_alone_.end(), std::pair(part, pulls_[part].size())) != left_alone_.end()) continue;
+      if (edits_[part] ||
+          std::find(left_alone_.begin(), left_alone_.end(), std::pair(part, pulls_[part].size())) != left_alone_.end())
+        continue;
       std::pair<bool, int> broken{false, 0};
       for (const auto& [relation, by] : residuals(pulls_[part], still())) {
         if (by <= exact) continue;

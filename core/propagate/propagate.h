@@ -2,14 +2,15 @@
 //
 // The loop: apply the seed edits; as long as a relation between an edited and an unedited part is broken, take the part
 // with the most of them (ties by id), find its edit and add it. Symmetry first: the mirror image of a mirrored
-// neighbour's edit; then attachments, by solve_part(). A relation that an edit leaves broken is recorded and not chased.
+// neighbour's edit; then attachments, by solve_part(). A relation that an edit leaves broken is recorded and not
+// chased.
 //
-// Groups. The virtual parent of a translation or rotation group stands for its instances, until a seed on one of them, or
-// "disabled", dissolves the group. Its extent follows its neighbours like that of any part; where it must spread along the
-// row (or outwards) the spacing changes and the instances stay as they are: change_delta moves them rigidly, so it costs
-// no deformation. The count follows only when a hint asks for it (change_count): a slider under which slats jump in and
-// out is a surprise. Then change_delta is followed by a change_count that keeps the extent and brings the spacing nearest
-// to what it was.
+// Groups. The virtual parent of a translation or rotation group stands for its instances, until a seed on one of them,
+// or "disabled", dissolves the group. Its extent follows its neighbours like that of any part; where it must spread
+// along the row (or outwards) the spacing changes and the instances stay as they are: change_delta moves them rigidly,
+// so it costs no deformation. The count follows only when a hint asks for it (change_count): a slider under which slats
+// jump in and out is a surprise. Then change_delta is followed by a change_count that keeps the extent and brings the
+// spacing nearest to what it was.
 #pragma once
 
 #include "core/base/progress.h"
@@ -32,8 +33,9 @@ struct Propagation {
   Trace trace;
 };
 
-/// Deterministic. Fails when the request does not fit the shape (see resolve()), when a seed's amount is undefined at or
-/// near 0, or inverts its own part at once. A shape without relations gives the seed alone, and a trace that says why.
+/// Deterministic. Fails when the request does not fit the shape (see resolve()), when a seed's amount is undefined at
+/// or near 0, or inverts its own part at once. A shape without relations gives the seed alone, and a trace that says
+/// why.
 Result<Propagation> propagate(const Shape& shape, const EditRequest& request, const PropagateOptions& options = {},
                               const Progress& progress = {});
 

@@ -35,8 +35,8 @@ struct Fit {
   double error = 0;  ///< largest |coordinate| missed
 };
 
-/// The amounts with which the candidate meets all rows within `tolerance`; nothing when there are none, when they vanish
-/// or exceed largest_amount.
+/// The amounts with which the candidate meets all rows within `tolerance`; nothing when there are none, when they
+/// vanish or exceed largest_amount.
 std::optional<Fit> fit(const Candidate& candidate, const Rows& rows, double tolerance);
 
 /// Largest |coordinate| by which the candidate with these amounts misses the rows.

@@ -7,9 +7,9 @@ namespace parsel {
 
 /// Edits above this deformation energy are dropped. As-rigid-as-possible energy (Sorkine and Alexa 2007) of a box's 8
 /// corners in the normalised frame: Σ over corners i and neighbours j of w·‖(p'ᵢ−p'ⱼ) − Rᵢ(pᵢ−pⱼ)‖², w = 1 for the 12
-/// edges and ½ for the 12 face diagonals, the mean of the two ways to split the faces into 12 triangles, so that mirrored
-/// edits cost the same. Stretching a half-diagonal's length by another half-diagonal costs about 12; 20 is what the
-/// authors use, with a weighting that they do not give.
+/// edges and ½ for the 12 face diagonals, the mean of the two ways to split the faces into 12 triangles, so that
+/// mirrored edits cost the same. Stretching a half-diagonal's length by another half-diagonal costs about 12; 20 is
+/// what the authors use, with a weighting that they do not give.
 inline constexpr double largest_energy = 20;
 
 double arap_energy(const Corners& rest, const Corners& deformed);

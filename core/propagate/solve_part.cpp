@@ -27,14 +27,22 @@ class Search {
  public:
   Search(const Scene& scene, PartIndex part, const std::optional<Hint>& hint,
          const std::vector<PointConstraint>& constraints, TraceStep& trace)
-      : scene_(scene), shape_(scene.graph.shape()), part_(part), hint_(hint), constraints_(constraints), trace_(trace), rows_(constraints) {}
+      : scene_(scene),
+        shape_(scene.graph.shape()),
+        part_(part),
+        hint_(hint),
+        constraints_(constraints),
+        trace_(trace),
+        rows_(constraints) {}
 
   Solution run() {
     const SolveOptions& options = scene_.options;
     const bool is_group = shape_.parts[part_].is_virtual();
     generate(is_group);
     const auto moves = [](const Candidate& c) { return c.what.op == Op::translate && is_whole(c); };
-    const auto rigid = [&](const Candidate& c) { return moves(c) || (c.what.op == Op::rotate && is_whole(c)) || !is_geometric(c.what.op); };
+    const auto rigid = [&](const Candidate& c) {
+      return moves(c) || (c.what.op == Op::rotate && is_whole(c)) || !is_geometric(c.what.op);
+    };
     const auto plain = [](const Candidate& c) { return c.symmetry_cost <= 1; };
     const auto all = [](const Candidate&) { return true; };
 
@@ -83,7 +91,9 @@ class Search {
       own_.insert(own_.end(), copies.begin(), copies.end());
     }
     if (!is_group) return;
-    const auto is_spacing = [](const Candidate& c) { return c.what.op == Op::change_delta && c.anchor == Anchor::middle; };
+    const auto is_spacing = [](const Candidate& c) {
+      return c.what.op == Op::change_delta && c.anchor == Anchor::middle;
+    };
     const auto spacing = std::find_if(own_.begin(), own_.end(), is_spacing);
     if (spacing != own_.end()) spacing_ = *spacing;
     fills_ = !hint_ && fills_its_extent(shape_, part_);
@@ -153,8 +163,9 @@ class Search {
     return choose(survivors, tolerance, kind);
   }
 
-  /// Best first. Energies that differ by little decide nothing: the amounts are fits, and a wrong operator with a slightly
-  /// smaller amount would win over the right one. Then the plainer operator comes first, then the one that fits perfectly.
+  /// Best first. Energies that differ by little decide nothing: the amounts are fits, and a wrong operator with a
+  /// slightly smaller amount would win over the right one. Then the plainer operator comes first, then the one that
+  /// fits perfectly.
   static void sort(std::vector<Survivor>& survivors) {
     std::stable_sort(survivors.begin(), survivors.end(),
                      [](const Survivor& a, const Survivor& b) { return a.rank < b.rank; });
@@ -264,7 +275,8 @@ class Search {
           const auto found = fit(candidate, rows[g], scene_.options.exact);
           if (!found) continue;
           ++trace_.survivors;
-          const auto lost = lost_by([&](std::size_t other) { return missed_by(candidate, found->amount, rows[other]); });
+          const auto lost =
+              lost_by([&](std::size_t other) { return missed_by(candidate, found->amount, rows[other]); });
           if (lost > fewest || lost.first >= at_rest.first) continue;
           if (lost < fewest) best.clear();
           fewest = lost;

@@ -12,7 +12,8 @@ Vec3 mirrored(const Vec3& v, const Vec3& normal) {
   return v - 2 * normal.dot(v) * normal;
 }
 
-/// The feature of the image part that consists of the images of the feature's corners. `image[k]` is where corner k goes.
+/// The feature of the image part that consists of the images of the feature's corners. `image[k]` is where corner k
+/// goes.
 std::optional<LocalTriple> mapped_feature(const LocalTriple& feature, const std::array<int, 8>& image) {
   std::array<bool, 8> wanted{};
   for (int k = 0; k < 8; ++k) {

@@ -1,6 +1,6 @@
 // How long propagation takes on the gallery's edits, on furniture (PARSEL_DATA) and with growing numbers of parts.
-// CSV: benchmark,case,metric,value. Each time is the median of several runs, proof and range included; processor time, so
-// that a busy machine does not disturb it.
+// CSV: benchmark,case,metric,value. Each time is the median of several runs, proof and range included; processor time,
+// so that a busy machine does not disturb it.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

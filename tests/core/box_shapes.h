@@ -14,7 +14,8 @@ class BoxShape {
  public:
   PartIndex box(const std::string& id, const Vec3& centre, const Vec3& half, double turn_about_y = 0) {
     Mat3 axes = Mat3::Identity();
-    axes << std::cos(turn_about_y), 0, -std::sin(turn_about_y), 0, 1, 0, std::sin(turn_about_y), 0, std::cos(turn_about_y);
+    axes << std::cos(turn_about_y), 0, -std::sin(turn_about_y), 0, 1, 0, std::sin(turn_about_y), 0,
+        std::cos(turn_about_y);
     return add(id, make_box(centre, axes, half));
   }
 

@@ -61,8 +61,8 @@ inline std::vector<LabelledBox> edited_boxes(const Shape& shape, const State& st
   return boxes;
 }
 
-/// Largest distance of a corner, as a share of `half_diagonal`, and the label of its part. Parts correspond by node where
-/// the number of parts is that of the truth, else by label and place.
+/// Largest distance of a corner, as a share of `half_diagonal`, and the label of its part. Parts correspond by node
+/// where the number of parts is that of the truth, else by label and place.
 inline std::pair<double, std::string> distance_from_truth(const std::vector<LabelledBox>& edited,
                                                           const std::vector<GalleryPart>& truth, double half_diagonal) {
   std::pair<double, std::string> worst{0, ""};

@@ -42,7 +42,10 @@ json scale_seat(double factor = 1) {
 }
 
 json translate(const std::string& part, const Vec3& direction, const std::string& amount = "x") {
-  return {{"op", "translate"}, {"part", part}, {"direction", {direction.x(), direction.y(), direction.z()}}, {"amount", amount}};
+  return {{"op", "translate"},
+          {"part", part},
+          {"direction", {direction.x(), direction.y(), direction.z()}},
+          {"amount", amount}};
 }
 
 std::vector<Statement> statements_of(const Propagation& found, const std::string& part) {
@@ -95,12 +98,9 @@ TEST_CASE("a widened seat takes legs, bar and back along, with exact amounts") {
 
 TEST_CASE("legs that mirror an edited leg get its mirror image, features and turns included") {
   const Shape shape = test::chair();
-  const json turn = {{"op", "rotate"},
-                     {"part", "leg_front_left"},
-                     {"feature", {0, -1, 0}},
-                     {"origin", {{"part", "leg_front_left"}, {"at", {0, 1, 0}}}},
-                     {"axis", {0, 0, 1}},
-                     {"amount", "x"}};
+  const json turn = {{"op", "rotate"},        {"part", "leg_front_left"},
+                     {"feature", {0, -1, 0}}, {"origin", {{"part", "leg_front_left"}, {"at", {0, 1, 0}}}},
+                     {"axis", {0, 0, 1}},     {"amount", "x"}};
   const Propagation found = run(shape, {{"seed", {turn}}});
   for (const double x : {-0.3, 0.2}) {
     const Corners left = corners_at(shape, found, "leg_front_left", x);
@@ -259,12 +259,12 @@ TEST_CASE("hints choose among the edits that keep the relations") {
 TEST_CASE("a part that cannot follow two neighbours follows one, and the other relation is recorded") {
   // The bar is held at both ends by legs of which one goes up, the other sideways: no edit of a box does both.
   const Shape shape = test::chair();
-  const Propagation found = run(shape, {{"seed",
-                                         {translate("leg_front_left", Vec3::UnitZ(), "x"),
-                                          translate("leg_front_right", Vec3::UnitY(), "sin(3*x)"),
-                                          translate("leg_back_left", Vec3::UnitX(), "x^2"),
-                                          translate("leg_back_right", Vec3::UnitY(), "x")}},
-                                        {"disabled", {"kind:reflection"}}});
+  const Propagation found =
+      run(shape,
+          {{"seed",
+            {translate("leg_front_left", Vec3::UnitZ(), "x"), translate("leg_front_right", Vec3::UnitY(), "sin(3*x)"),
+             translate("leg_back_left", Vec3::UnitX(), "x^2"), translate("leg_back_right", Vec3::UnitY(), "x")}},
+           {"disabled", {"kind:reflection"}}});
   bool any_broken = false;
   for (const TraceStep& step : found.trace.steps) any_broken = any_broken || !step.left_broken.empty();
   CHECK(any_broken);
@@ -334,7 +334,8 @@ TEST_CASE("requests that make no sense for the shape are refused by name") {
   CHECK(refusal(shape, {{"seed", {top}}, {"disabled", {"kind:magic"}}}).place == "/disabled/0");
   CHECK(refusal(shape, {{"seed", json::array()}}).place == "/seed");
   CHECK(refusal(shape, {{"seed", {top}}, {"seeds", 1}}).place == "/seeds");
-  CHECK(refusal(shape, {{"seed", {{{"op", "scale_1d"}, {"part", "top_rail"}, {"amount", "x"}}}}}).place.rfind("/seed/0", 0) == 0);
+  CHECK(refusal(shape, {{"seed", {{{"op", "scale_1d"}, {"part", "top_rail"}, {"amount", "x"}}}}})
+            .place.rfind("/seed/0", 0) == 0);
   CHECK(refusal(shape, {{"seed",
                          {translate("slat_1", Vec3::UnitX()),
                           {{"op", "change_delta"}, {"relation", "t1"}, {"anchor", "middle"}, {"amount", "x"}}}}})

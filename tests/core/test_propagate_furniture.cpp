@@ -56,8 +56,8 @@ TEST_CASE("real furniture: widened, raised and with one part moved, nothing fail
   }
   std::sort(files.begin(), files.end());
   REQUIRE(!files.empty());
-  std::printf("%-24s %-6s %5s %5s %7s %7s %5s/%-5s %s\n", "model", "edit", "parts", "moves", "min", "max", "held", "all",
-              "certified");
+  std::printf("%-24s %-6s %5s %5s %7s %7s %5s/%-5s %s\n", "model", "edit", "parts", "moves", "min", "max", "held",
+              "all", "certified");
   int held = 0, all = 0, certified = 0;
   for (const auto& path : files) {
     std::ifstream file(path, std::ios::binary);
@@ -100,7 +100,8 @@ TEST_CASE("real furniture: widened, raised and with one part moved, nothing fail
       certified += proven;
       CHECK(layer.parameter.max - layer.parameter.min > 0.05);
       const Evaluator evaluate(found->program, shape);
-      for (const double x : {layer.parameter.min, layer.parameter.min / 2, layer.parameter.max / 2, layer.parameter.max}) {
+      for (const double x :
+           {layer.parameter.min, layer.parameter.min / 2, layer.parameter.max / 2, layer.parameter.max}) {
         const State state = evaluate({x});
         for (const PartIndex p : active_parts(shape)) {
           CHECK(relative_jacobians(state.parts[p], shape.parts[p].hexahedron.corners).minCoeff() > 0);
