@@ -25,5 +25,5 @@ if (error) {
   process.exit(1);
 }
 mkdirSync(folder, { recursive: true });
-result.models.forEach(({ file }, index) => writeFileSync(join(folder, file), buffers[index]));
+for (const [index, { file }] of result.models.entries()) writeFileSync(join(folder, file), buffers[index]);
 writeFileSync(join(folder, 'gallery.json'), JSON.stringify(result.models));
