@@ -30,7 +30,8 @@ int run(const Arguments& arguments) {
   }
   const int written = write_json(arguments, to_json(report));
   if (written != exit_done || report.accepted()) return written;
-  for (const Finding& finding : report.findings) std::cerr << "check: " << finding.place << ": " << finding.text << '\n';
+  for (const Finding& finding : report.findings)
+    std::cerr << "check: " << finding.place << ": " << finding.text << '\n';
   return exit_refused;
 }
 
@@ -38,10 +39,10 @@ int run(const Arguments& arguments) {
 
 extern const Command check_command;
 const Command check_command = {"check",
-                                      "MODEL.glb PROGRAM.json [--trace TRACE.json] [-o REPORT.json]",
-                                      "Checks a program's claims, and those of its trace, by independent means.",
-                                      {"--trace", "-o"},
-                                      {},
-                                      run};
+                               "MODEL.glb PROGRAM.json [--trace TRACE.json] [-o REPORT.json]",
+                               "Checks a program's claims, and those of its trace, by independent means.",
+                               {"--trace", "-o"},
+                               {},
+                               run};
 
 }  // namespace parsel::cli

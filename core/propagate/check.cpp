@@ -83,7 +83,8 @@ class Checker {
       ++report_.relations;
     }
     for (const std::string& id : ties.due) {
-      if (reported.count(id) == 0) find(layer_place(l) + "/relations", id + " touches an edited part but is not reported");
+      if (reported.count(id) == 0)
+        find(layer_place(l) + "/relations", id + " touches an edited part but is not reported");
     }
   }
 
@@ -99,8 +100,8 @@ class Checker {
       return;
     }
     if (!shape_.find_part(s.part)) find(place + "/part", "no part of the shape");
-    const bool origin = s.op == Op::rotate || s.op == Op::shear || s.op == Op::scale_1d || s.op == Op::scale_2d ||
-                        s.op == Op::scale_3d;
+    const bool origin =
+        s.op == Op::rotate || s.op == Op::shear || s.op == Op::scale_1d || s.op == Op::scale_2d || s.op == Op::scale_3d;
     const bool direction = s.op == Op::translate || s.op == Op::rotate || s.op == Op::scale_1d || s.op == Op::shear;
     const bool normal = s.op == Op::scale_2d || s.op == Op::shear;
     if (origin && !s.origin) find(place, "the operator needs an origin");

@@ -1,8 +1,9 @@
 // The independent checker of propagated programs and their traces: `parsel check`.
 //
-// It believes nothing that the propagation says and uses none of its code: programs are evaluated by replay.h, relations,
-// tolerances, edited parts and active relations are worked out here once more, and everything is looked at numerically at
-// many values of the parameter. So it can refute, never prove: a certified bound is accepted when nothing exceeds it.
+// It believes nothing that the propagation says and uses none of its code: programs are evaluated by replay.h,
+// relations, tolerances, edited parts and active relations are worked out here once more, and everything is looked at
+// numerically at many values of the parameter. So it can refute, never prove: a certified bound is accepted when
+// nothing exceeds it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -31,12 +32,15 @@ struct CheckReport {
 /// What is checked of a program:
 ///   * it is for this shape; parts, relations and references exist; operators have the fields they need;
 ///   * ranges contain 0 and the value; with all parameters 0 nothing moves (1e-6);
-///   * over each layer's range (201 even values, ends included, and 40 random ones; other layers at their value): amounts
+///   * over each layer's range (201 even values, ends included, and 40 random ones; other layers at their value):
+///   amounts
 ///     are defined and below 5, no cage is inverted at a corner;
 ///   * every active relation that touches an edited part is reported, once, and no other but disabled groups;
-///   * held: never beyond the tolerance; broken: beyond it somewhere; worst: never exceeded (1e-6, for it is rounded when
+///   * held: never beyond the tolerance; broken: beyond it somewhere; worst: never exceeded (1e-6, for it is rounded
+///   when
 ///     written), and no more than a tenth too large unless certified and within the tolerance.
-/// Layers without any report are programs written by hand, whose authors claim nothing: only the first three are checked.
+/// Layers without any report are programs written by hand, whose authors claim nothing: only the first three are
+/// checked.
 CheckReport check_program(const Shape& shape, const Program& program);
 
 /// The same, and what a trace (format parsel/trace v1, see trace.h) says of layer `layer`; see check_trace.cpp.

@@ -116,7 +116,7 @@ class TraceChecker {
     part_ = step.at("part");
     claim(active_.count(part_) == 1, part_ + " is no part that counts here");
     claim(edited_.count(part_) == 0 || held_.count(part_) > 0, part_ + " is edited twice");
-    static const std::set<std::string> kinds = {"seed",      "symmetry", "attachment", "neighbour",
+    static const std::set<std::string> kinds = {"seed",     "symmetry", "attachment", "neighbour",
                                                 "breaking", "group",    "keep_fixed", "left_alone"};
     claim(kinds.count(kind) == 1, "unknown kind " + kind);
   }
@@ -218,7 +218,8 @@ class TraceChecker {
       const std::string id = entry.at("relation");
       named.insert(id);
       const auto found = deviations.find(id);
-      if (!claim(found != deviations.end(), std::string(key) + " names " + id + ", which does not count here")) continue;
+      if (!claim(found != deviations.end(), std::string(key) + " names " + id + ", which does not count here"))
+        continue;
       const double by = entry.at("by");
       claim(std::abs(by - found->second) <= replay_error,
             std::string(key) + ": " + id + " is off by " + std::to_string(found->second));
@@ -245,8 +246,8 @@ class TraceChecker {
 
   void numbers(const json& step) {
     const json& candidates = step.at("candidates");
-    const int screened = candidates.at("own").get<int>() + candidates.at("neighbour").get<int>() +
-                         candidates.at("pairs").get<int>();
+    const int screened =
+        candidates.at("own").get<int>() + candidates.at("neighbour").get<int>() + candidates.at("pairs").get<int>();
     const int survivors = step.at("survivors");
     const int solved = step.at("solved");
     claim(screened >= 0 && survivors >= 0 && solved >= 0, "a number of candidates is negative");

@@ -5,8 +5,8 @@
 //   translation  H_i[k] - H_0[k] - i·(end - start)/(n - 1), the instances i of the group as they are now
 //   rotation     H_i[k] - centre - R(axis, i·2π/n)(H_0[k] - centre)
 //   attachment   M_a H_a - M_b H_b minus the same at rest
-// An attachment to the parent of a group is one to the parent's corners, whatever the number of instances. That start, end
-// and centre follow the parent and the other way round needs no constraint: every operator moves them together.
+// An attachment to the parent of a group is one to the parent's corners, whatever the number of instances. That start,
+// end and centre follow the parent and the other way round needs no constraint: every operator moves them together.
 #pragma once
 
 #include <array>
@@ -117,8 +117,7 @@ void rotation_deviations(const Constraint& constraint, const State& state, F&& f
         const int d = (c + 1) % 3;
         const int e = (c + 2) % 3;
         const T along = height * axis[c];
-        const T turned =
-            along + std::cos(angle) * (r[c] - along) + std::sin(angle) * (axis[d] * r[e] - axis[e] * r[d]);
+        const T turned = along + std::cos(angle) * (r[c] - along) + std::sin(angle) * (axis[d] * r[e] - axis[e] * r[d]);
         f(coordinate(group.instances[static_cast<std::size_t>(i)], k, c) - coordinate(group.centre, c) - turned);
       }
     }

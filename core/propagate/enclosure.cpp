@@ -103,8 +103,8 @@ struct Motion {
   Op op;
   JetPoint origin, direction, normal;
   Jet amount;
-  JetPoint shift;      ///< translate: amount · direction
-  SineCosine turn;     ///< rotate
+  JetPoint shift;   ///< translate: amount · direction
+  SineCosine turn;  ///< rotate
 
   Motion(Op o, const JetPoint& at, const JetPoint& d, const JetPoint& n, const Jet& a)
       : op(o), origin(at), direction(d), normal(n), amount(a) {
@@ -199,8 +199,8 @@ void refresh_rotation(const Shape& shape, const Rotation& rotation, const JetCor
   group.radius = (1.0 / static_cast<double>(group.instances.size())) * sum;
 }
 
-void edit_parent(const Shape& shape, PartIndex parent, RelationIndex r, const Motion& motion, const LocalTriple& feature,
-                 JetState& state) {
+void edit_parent(const Shape& shape, PartIndex parent, RelationIndex r, const Motion& motion,
+                 const LocalTriple& feature, JetState& state) {
   const Relation& relation = shape.relations[r];
   const bool translation = relation.kind == RelationKind::translation;
   JetGroup& group = state.groups[r];
@@ -278,11 +278,8 @@ void recount_translation(const Translation& rest, std::size_t count, std::size_t
   const std::size_t n = group.instances.size();
   const JetPoint middle_point = 0.5 * (group.start + group.end);
   const Vec3 rest_step = (rest.end - rest.start) / static_cast<double>(rest_count - 1);
-  const JetPoint step =
-      n > 1 ? (1 / static_cast<double>(n - 1)) * (group.end - group.start) : to_jets(rest_step);
-  const auto place = [&](std::size_t i) {
-    return n > 1 ? group.start + static_cast<double>(i) * step : middle_point;
-  };
+  const JetPoint step = n > 1 ? (1 / static_cast<double>(n - 1)) * (group.end - group.start) : to_jets(rest_step);
+  const auto place = [&](std::size_t i) { return n > 1 ? group.start + static_cast<double>(i) * step : middle_point; };
   const std::size_t source = anchor == Anchor::end ? n - 1 : anchor == Anchor::middle ? (n - 1) / 2 : 0;
   const double last = static_cast<double>(count - 1);
   const auto new_place = [&](std::size_t j) -> JetPoint {
@@ -485,7 +482,8 @@ void Enclosure::run(const std::vector<Step>& steps, const std::vector<Jet>& para
     }
     if (!part.group) continue;
     const std::vector<PartIndex>& members = shape_->relations[*part.group].parts;
-    const auto member = static_cast<std::size_t>(std::find(members.begin(), members.end(), *step.part) - members.begin());
+    const auto member =
+        static_cast<std::size_t>(std::find(members.begin(), members.end(), *step.part) - members.begin());
     JetGroup& group = state.groups[*part.group];
     group.instances[std::min(member, group.instances.size() - 1)] = corners;
   }

@@ -1,7 +1,8 @@
 // Rigorous bounds on where a program takes a shape: what core/edit/evaluate.h does in doubles, on Taylor jets.
 //
 // Within a layer only its own parameter varies; those of the other layers stand at their values. References are read at
-// the start of the layer, which is the same for the whole range, so origins and directions are constants (thin intervals).
+// the start of the layer, which is the same for the whole range, so origins and directions are constants (thin
+// intervals).
 #pragma once
 
 #include <array>
@@ -33,12 +34,12 @@ struct JetState {
 /// One layer of a program, ready to be evaluated over ranges of its parameter.
 class Enclosure {
  public:
-  /// Applies layers 0 … layer; later ones are not looked at. `program` passed validate() for `shape`, which must outlive
-  /// this object.
+  /// Applies layers 0 … layer; later ones are not looked at. `program` passed validate() for `shape`, which must
+  /// outlive this object.
   Enclosure(const Shape& shape, const Program& program, std::size_t layer);
 
-  /// The state as jets of the layer's parameter, at a point (low == high) or over a range. Jets are not `defined` where no
-  /// bound is known: amounts with singularities, a count that jumps inside the range, and the instances of a group
+  /// The state as jets of the layer's parameter, at a point (low == high) or over a range. Jets are not `defined` where
+  /// no bound is known: amounts with singularities, a count that jumps inside the range, and the instances of a group
   /// whose parent, already moved in this layer, is then edited by a feature (their local coordinates in it vary).
   JetState operator()(const Interval& x) const;
 

@@ -51,8 +51,8 @@ Jet smooth_power(const Jet& base, double exponent, const Interval& value) {
 }
 
 /// Σ a[j]·b[k - j] over j = first … last. The inner loop of all jets: outward rounding once for the sum instead of for
-/// every operation (2.5 times faster). Each of the 2n roundings is within half an ulp of a partial result, and no partial
-/// result exceeds the sum of the terms' sizes.
+/// every operation (2.5 times faster). Each of the 2n roundings is within half an ulp of a partial result, and no
+/// partial result exceeds the sum of the terms' sizes.
 Interval sum_of_products(const Interval* a, const Interval* b, std::size_t first, std::size_t last, std::size_t k) {
   double low = 0;
   double high = 0;
@@ -85,9 +85,9 @@ double binomial(int n, int k) {
   return k < 0 || k > n ? 0 : result;
 }
 
-/// Row i holds the i-th Bernstein coefficient over [-1, 1] of 1, u, u², …: a polynomial lies between the smallest and the
-/// largest of its coefficients, and meets the first and last. So a bound is exact when the largest value is at an end, as
-/// it mostly is. With Σ|cₖ| instead, the case rotate_broken of bench_prove took 15.0 ms; with this, 3.4.
+/// Row i holds the i-th Bernstein coefficient over [-1, 1] of 1, u, u², …: a polynomial lies between the smallest and
+/// the largest of its coefficients, and meets the first and last. So a bound is exact when the largest value is at an
+/// end, as it mostly is. With Σ|cₖ| instead, the case rotate_broken of bench_prove took 15.0 ms; with this, 3.4.
 const BernsteinTable& bernstein_table() {
   static const BernsteinTable table = [] {
     constexpr int degree = static_cast<int>(Jet::order) - 1;

@@ -15,9 +15,9 @@ constexpr double closed_ratio = 1e-2;  ///< a bound this near to a value that oc
 constexpr double closed_noise = 1e-6;  ///< … or this near, in the normalised frame
 /// Wider than the 1e-9 that change_count forgives, so that a count and a floor() that jump as one are one jump.
 constexpr double bracket_width = 1e-8;
-constexpr int most_brackets = 4000;    ///< amounts looked at while bracketing jumps
-constexpr int most_pieces = 96;        ///< pieces bounded, per layer
-constexpr int coarse_samples = 5;  ///< the search itself looks at the middle of every piece
+constexpr int most_brackets = 4000;  ///< amounts looked at while bracketing jumps
+constexpr int most_pieces = 96;      ///< pieces bounded, per layer
+constexpr int coarse_samples = 5;    ///< the search itself looks at the middle of every piece
 constexpr int dense_samples = 257;
 
 /// Splits a range where an amount jumps or has a kink: the closed segments between the brackets.

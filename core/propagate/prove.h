@@ -1,9 +1,10 @@
 // Which relations a program keeps over the whole range of a layer's parameter, and how surely. ParSEL §5.2, equation 1.
 //
 // The paper checks ‖C(x)‖∞ < δ at random values of x. Here the closed form is bounded over the range: Taylor jets of
-// intervals (jet.h) for every coordinate of C, on pieces of the range that are halved where the bound is loose. Jumps and
-// kinks (floor, abs, min, max, a count that changes) are bracketed first, to a width of 1e-8, and the pieces between them
-// bounded one by one. The brackets themselves, of which no slider sees the inside, are taken to be like their two ends.
+// intervals (jet.h) for every coordinate of C, on pieces of the range that are halved where the bound is loose. Jumps
+// and kinks (floor, abs, min, max, a count that changes) are bracketed first, to a width of 1e-8, and the pieces
+// between them bounded one by one. The brackets themselves, of which no slider sees the inside, are taken to be like
+// their two ends.
 //
 // What the bound speaks of: amounts as compiled to doubles, M_a and M_b as the doubles they are, all else exact.
 #pragma once
@@ -20,11 +21,13 @@ namespace parsel {
 /// One report for every relation of scope_of(), in the shape's order.
 ///
 /// Layers 0 … `layer` are applied, later ones are not; the layer's own parameter runs over [min, max], those before it
-/// stand at their `value`. So a report holds for those values: after a change of an earlier slider it must be made anew.
+/// stand at their `value`. So a report holds for those values: after a change of an earlier slider it must be made
+/// anew.
 ///
 ///   status  held when `worst` is within tolerance_of() the relation, else broken; disabled as `disabled` says.
 ///   worst   largest deviation of a coordinate over the range (see deviation.h), for disabled relations too.
-///   proof   certified: `worst` is a proven upper bound, which either keeps the tolerance or exceeds a value that really
+///   proof   certified: `worst` is a proven upper bound, which either keeps the tolerance or exceeds a value that
+///   really
 ///           occurs by at most 1 % and 1e-6. sampled: no such bound was found (see Enclosure for when); `worst` is
 ///           the largest of 257 evenly spaced samples, ends included, and of both sides of every jump.
 ///

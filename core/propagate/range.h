@@ -16,13 +16,13 @@ inline constexpr double collapse_ratio = 0.05;
 inline constexpr double largest_amount = 5;
 
 struct Range {
-  double min = 0, max = 0;              ///< min <= 0 <= max
+  double min = 0, max = 0;             ///< min <= 0 <= max
   std::string min_reason, max_reason;  ///< why not further, for people: "seat would turn inside out", "limit"
 };
 
-/// The widest [min, max] within ±limit on which, going outward from 0, no hexahedron of an active part or of an instance
-/// inverts or collapses (see collapse_ratio, at the corners of the cage), and every amount of the layer is defined and
-/// below largest_amount in size. The layers before it stand at their values, later ones are not applied.
+/// The widest [min, max] within ±limit on which, going outward from 0, no hexahedron of an active part or of an
+/// instance inverts or collapses (see collapse_ratio, at the corners of the cage), and every amount of the layer is
+/// defined and below largest_amount in size. The layers before it stand at their values, later ones are not applied.
 ///
 /// `limit` > 0, usually tau; a layer whose seed is a rotation may deserve more, as its amount is an angle. Steps of
 /// limit/48 find the first failure, bisection its place to limit·1e-6; ends short of the limit are rounded towards 0 to

@@ -1,8 +1,8 @@
 // A second, deliberately plain evaluation of programs, for the independent checker alone.
 //
-// It shares no code with core/edit beyond the program's data types: amounts are read from their text and evaluated while
-// being parsed, operators are the matrices of the supplement's table 2, every query starts from the shape at rest.
-// Slow, and meant to be checked by reading. The rules are those written at the top of core/edit/evaluate.h.
+// It shares no code with core/edit beyond the program's data types: amounts are read from their text and evaluated
+// while being parsed, operators are the matrices of the supplement's table 2, every query starts from the shape at
+// rest. Slow, and meant to be checked by reading. The rules are those written at the top of core/edit/evaluate.h.
 #pragma once
 
 #include <map>

@@ -34,7 +34,8 @@ Shape row() {
       attachment.local_b.push_back(shape.parts[PartIndex(static_cast<std::size_t>(b))].hexahedron.local(p));
     }
     const RelationKind kind = points.size() == 2 ? RelationKind::line : RelationKind::face;
-    const std::vector<PartIndex> both = {PartIndex(static_cast<std::size_t>(a)), PartIndex(static_cast<std::size_t>(b))};
+    const std::vector<PartIndex> both = {PartIndex(static_cast<std::size_t>(a)),
+                                         PartIndex(static_cast<std::size_t>(b))};
     shape.relations.push_back({"a" + std::to_string(shape.relations.size() + 1), kind, both, attachment});
   };
   for (int i = 0; i + 1 < parts; ++i) {

@@ -169,9 +169,8 @@ Program program(const Shape& shape, std::vector<Statement> statements, double mi
 
 std::string random_amount(Random& random) {
   static const std::array<const char*, 12> forms = {
-      "x1",          "0.5*x1",          "-0.3*x1",          "x1^2",
-      "sin(x1)",     "sqrt(1+x1)-1",    "atan2(x1,1)",      "x1/(1+x1^2)",
-      "tan(0.5*x1)", "1-cos(x1)",       "sqrt(1-x1^2)-1",   "atan2(sin(x1),1.2-cos(x1))-0.3*x1^3",
+      "x1",          "0.5*x1",      "-0.3*x1",     "x1^2",      "sin(x1)",        "sqrt(1+x1)-1",
+      "atan2(x1,1)", "x1/(1+x1^2)", "tan(0.5*x1)", "1-cos(x1)", "sqrt(1-x1^2)-1", "atan2(sin(x1),1.2-cos(x1))-0.3*x1^3",
   };
   return forms[random.below(forms.size())];
 }
@@ -186,9 +185,9 @@ Program random_program(const Shape& shape, Random& random) {
   const std::array<Op, 6> ops = {Op::translate, Op::rotate, Op::scale_1d, Op::scale_2d, Op::scale_3d, Op::shear};
   for (std::size_t i = 0; i < count; ++i) {
     const Part& part = *parts[random.below(parts.size())];
-    Statement s = statement(ops[random.below(ops.size())], part.id, random_direction(random), random_amount(random),
-                            {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)},
-                            random_direction(random));
+    Statement s =
+        statement(ops[random.below(ops.size())], part.id, random_direction(random), random_amount(random),
+                  {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, random_direction(random));
     if (random.below(3) == 0) s.feature = random_triple(random);
     if (s.origin && random.below(2) == 0) s.origin = PartPoint{part.id, random_triple(random)};
     if (s.direction && random.below(2) == 0) s.direction = PartAxis{part.id, static_cast<int>(random.below(3))};

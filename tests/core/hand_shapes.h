@@ -17,15 +17,17 @@ RelationIndex attach(Shape& shape, const std::string& id, PartIndex a, PartIndex
 /// Mirror images across x = 0; both boxes must have axes along the global ones.
 RelationIndex mirror(Shape& shape, const std::string& id, PartIndex a, PartIndex b);
 
-/// seat 0.8 × 0.1 × 0.8 around the origin; leg_left (x = 0.3) and leg_right, mirrored (r1), attached to the seat from below
-/// (a1, a2: points); back across the seat's rear edge (a3: line, at x = ±0.4); door_handle inside the back (a4: volume).
+/// seat 0.8 × 0.1 × 0.8 around the origin; leg_left (x = 0.3) and leg_right, mirrored (r1), attached to the seat from
+/// below (a1, a2: points); back across the seat's rear edge (a3: line, at x = ±0.4); door_handle inside the back (a4:
+/// volume).
 Shape chair();
 
-/// A rail, and three slats along x at -0.2, 0, 0.2 below it, a translation (t1) with the parent slats; the parent hangs on
-/// the rail (a1: face, the parent's upper corners); the first and last slat alone also do (a2, a3: points).
+/// A rail, and three slats along x at -0.2, 0, 0.2 below it, a translation (t1) with the parent slats; the parent hangs
+/// on the rail (a1: face, the parent's upper corners); the first and last slat alone also do (a2, a3: points).
 Shape slats();
 
-/// A plate and four feet around y, a rotation (o1) with the parent feet at radius 0.3; the parent hangs on the plate (a1).
+/// A plate and four feet around y, a rotation (o1) with the parent feet at radius 0.3; the parent hangs on the plate
+/// (a1).
 Shape ring();
 
 /// A geometric statement on a whole part, with literal origin and directions.
@@ -36,8 +38,8 @@ Statement group_statement(Op op, const std::string& relation, const std::string&
 /// One layer with parameter x1 in [min, max].
 Program program(const Shape& shape, std::vector<Statement> statements, double min = -0.35, double max = 0.35);
 
-/// A program of 1 … 6 random statements on random parts of the shape: every geometric operator, any feature, literal and
-/// part references, amounts from linear to nested roots and angles.
+/// A program of 1 … 6 random statements on random parts of the shape: every geometric operator, any feature, literal
+/// and part references, amounts from linear to nested roots and angles.
 Program random_program(const Shape& shape, Random& random);
 std::string random_amount(Random& random);
 

@@ -110,7 +110,8 @@ TEST_CASE("genuine programs are accepted") {
       row, proven(row, hand::program(row, {hand::group_statement(Op::change_count, "t1", "10*x1", Anchor::middle),
                                            statement(Op::scale_1d, "rail", Vec3::UnitX(), "floor(10*x1)/5")})));
   CHECK_MESSAGE(counted.accepted(), first_finding(counted));
-  const Program apart = proven(row, hand::program(row, {statement(Op::translate, "rail", Vec3::UnitZ(), "x1")}), {"t1"});
+  const Program apart =
+      proven(row, hand::program(row, {statement(Op::translate, "rail", Vec3::UnitZ(), "x1")}), {"t1"});
   CHECK_MESSAGE(check_program(row, apart).accepted(), first_finding(check_program(row, apart)));
 }
 
@@ -125,7 +126,8 @@ TEST_CASE("programs that were tampered with are rejected") {
     CHECK_FALSE(check_program(shape, program).accepted());
   };
   rejects("changed amount", [](Layer& l) { l.statements[1].amount = parse_amount("0.31*x1").value(); });
-  rejects("an amount that is not 0 at 0", [](Layer& l) { l.statements[1].amount = parse_amount("0.3*x1+0.001").value(); });
+  rejects("an amount that is not 0 at 0",
+          [](Layer& l) { l.statements[1].amount = parse_amount("0.3*x1+0.001").value(); });
   rejects("missing statement", [](Layer& l) { l.statements.pop_back(); });
   rejects("another operator", [](Layer& l) { l.statements[0].op = Op::scale_3d; });
   rejects("another part", [](Layer& l) { l.statements[3].part = "handle"; });
@@ -177,16 +179,23 @@ TEST_CASE("a trace is a claim like any other") {
                        const json& after) {
     json entries[2] = {json::array(), json::array()};
     for (int i = 0; i < 2; ++i) {
-      for (const auto& [id, by] : (i == 0 ? before : after).items()) entries[i].push_back({{"relation", id}, {"by", by}});
+      for (const auto& [id, by] : (i == 0 ? before : after).items())
+        entries[i].push_back({{"relation", id}, {"by", by}});
     }
-    return json{{"part", part},         {"kind", kind},
+    return json{{"part", part},
+                {"kind", kind},
                 {"statements", json::array({statement})},
-                {"pulled_by", entries[0]}, {"result", entries[1]},
-                {"left_broken", json::array()}, {"tolerance", 0.002},
+                {"pulled_by", entries[0]},
+                {"result", entries[1]},
+                {"left_broken", json::array()},
+                {"tolerance", 0.002},
                 {"candidates", {{"own", 100}, {"neighbour", 0}, {"pairs", 0}}},
-                {"survivors", 3},       {"solved", 1},
-                {"symmetry_cost", 0},   {"energy", 0.5},
-                {"runners_up", json::array()}, {"why", ""}};
+                {"survivors", 3},
+                {"solved", 1},
+                {"symmetry_cost", 0},
+                {"energy", 0.5},
+                {"runners_up", json::array()},
+                {"why", ""}};
   };
   const json trace = {
       {"format", "parsel/trace"},

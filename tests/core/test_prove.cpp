@@ -29,7 +29,8 @@ std::vector<std::string> ids(const std::vector<RelationReport>& reports) {
   return result;
 }
 
-std::vector<RelationReport> prove(const Shape& shape, const Program& program, const std::set<std::string>& disabled = {}) {
+std::vector<RelationReport> prove(const Shape& shape, const Program& program,
+                                  const std::set<std::string>& disabled = {}) {
   return prove_relations(shape, program, 0, disabled);
 }
 
@@ -64,14 +65,14 @@ TEST_CASE("widening a seat alone breaks what hangs on it, by as much as it moves
 
 TEST_CASE("edits that follow exactly are certified to hold, whatever the form of their amounts") {
   const Shape shape = hand::chair();
-  for (const std::string amount : {"x1", "sin(x1)", "sqrt(1+x1)-1", "atan2(x1,1-x1)", "x1^3/(1+x1^2)", "0.1*floor(10*x1)",
-                                   "abs(x1)", "min(x1,0.1)"}) {
+  for (const std::string amount : {"x1", "sin(x1)", "sqrt(1+x1)-1", "atan2(x1,1-x1)", "x1^3/(1+x1^2)",
+                                   "0.1*floor(10*x1)", "abs(x1)", "min(x1,0.1)"}) {
     CAPTURE(amount);
-    const auto reports =
-        prove(shape, hand::program(shape, {statement(Op::scale_1d, "seat", Vec3::UnitX(), amount),
-                                           statement(Op::translate, "leg_left", Vec3::UnitX(), "0.3*(" + amount + ")"),
-                                           statement(Op::translate, "leg_right", -Vec3::UnitX(), "0.3*(" + amount + ")"),
-                                           statement(Op::scale_1d, "back", Vec3::UnitX(), amount)}));
+    const auto reports = prove(
+        shape, hand::program(shape, {statement(Op::scale_1d, "seat", Vec3::UnitX(), amount),
+                                     statement(Op::translate, "leg_left", Vec3::UnitX(), "0.3*(" + amount + ")"),
+                                     statement(Op::translate, "leg_right", -Vec3::UnitX(), "0.3*(" + amount + ")"),
+                                     statement(Op::scale_1d, "back", Vec3::UnitX(), amount)}));
     CHECK(reports.size() == 5);
     for (const std::string id : {"r1", "a1", "a2", "a3"}) check_proven(find(reports, id), held, 0);
   }
@@ -80,11 +81,13 @@ TEST_CASE("edits that follow exactly are certified to hold, whatever the form of
 TEST_CASE("two parts that turn together hold; a straight push beside a turn misses by r(1 - cos x)") {
   const Shape shape = hand::chair();
   const Vec3 hinge(-0.4, 0, -0.35);
-  const auto together = prove(shape, hand::program(shape, {statement(Op::rotate, "back", Vec3::UnitY(), "x1", hinge),
-                                                           statement(Op::rotate, "handle", Vec3::UnitY(), "x1", hinge)}));
+  const auto together =
+      prove(shape, hand::program(shape, {statement(Op::rotate, "back", Vec3::UnitY(), "x1", hinge),
+                                         statement(Op::rotate, "handle", Vec3::UnitY(), "x1", hinge)}));
   check_proven(find(together, "a4"), held, 0);
 
-  // The line's far point (0.4, 0.05, -0.35) turns about its near one (-0.4, …): 0.8·sin x along z, 0.8·(1 - cos x) along x.
+  // The line's far point (0.4, 0.05, -0.35) turns about its near one (-0.4, …): 0.8·sin x along z, 0.8·(1 - cos x)
+  // along x.
   const auto alone = prove(shape, hand::program(shape, {statement(Op::rotate, "back", Vec3::UnitY(), "x1", hinge)}));
   check_proven(find(alone, "a3"), broken, 0.8 * std::sin(0.35));
 
@@ -141,23 +144,23 @@ TEST_CASE("disabled relations are reported as such, by id or by kind") {
 
 TEST_CASE("a row follows its parent: spacing, count and scale keep it a row") {
   const Shape shape = hand::slats();
-  const auto widened =
-      prove(shape, hand::program(shape, {statement(Op::scale_1d, "rail", Vec3::UnitX(), "0.48*x1"),
-                                         statement(Op::scale_1d, "slats", Vec3::UnitX(), "x1")}));
+  const auto widened = prove(shape, hand::program(shape, {statement(Op::scale_1d, "rail", Vec3::UnitX(), "0.48*x1"),
+                                                          statement(Op::scale_1d, "slats", Vec3::UnitX(), "x1")}));
   CHECK(ids(widened) == std::vector<std::string>{"t1", "a1"});
   check_proven(find(widened, "t1"), held, 0);
   // The parent's corners move by 0.24·x, the rail at their place by 0.24·0.48·x.
   check_proven(find(widened, "a1"), broken, 0.24 * 0.52 * 0.35);
 
-  const auto spread = prove(
-      shape, hand::program(shape, {hand::group_statement(Op::change_delta, "t1", "x1", Anchor::middle),
-                                   statement(Op::scale_1d, "rail", Vec3::UnitX(), "x1/1.2")}));
+  const auto spread =
+      prove(shape, hand::program(shape, {hand::group_statement(Op::change_delta, "t1", "x1", Anchor::middle),
+                                         statement(Op::scale_1d, "rail", Vec3::UnitX(), "x1/1.2")}));
   check_proven(find(spread, "t1"), held, 0);
   // The sides move with the outer instances: 0.2·x.
   check_proven(find(spread, "a1"), held, 0);
 
   for (const Anchor anchor : {Anchor::fit, Anchor::start, Anchor::middle, Anchor::end}) {
-    const auto counted = prove(shape, hand::program(shape, {hand::group_statement(Op::change_count, "t1", "10*x1", anchor)}));
+    const auto counted =
+        prove(shape, hand::program(shape, {hand::group_statement(Op::change_count, "t1", "10*x1", anchor)}));
     check_proven(find(counted, "t1"), held, 0);
     // n' runs from 1 (clamped) to 6; the spacing is 0.2, so an end anchored on one side goes 3 steps too far.
     const double worst = anchor == Anchor::fit ? 0 : anchor == Anchor::middle ? 0.3 : 0.6;
@@ -188,12 +191,14 @@ TEST_CASE("editing one instance takes the group apart; its own attachments count
 
 TEST_CASE("a ring stays one under radius, count and height, not under a stretch") {
   const Shape shape = hand::ring();
-  const auto wider = prove(shape, hand::program(shape, {hand::group_statement(Op::change_delta, "o1", "x1", Anchor::fit),
-                                                        statement(Op::scale_2d, "plate", Vec3::UnitX(), "0.3*x1/0.34")}));
+  const auto wider =
+      prove(shape, hand::program(shape, {hand::group_statement(Op::change_delta, "o1", "x1", Anchor::fit),
+                                         statement(Op::scale_2d, "plate", Vec3::UnitX(), "0.3*x1/0.34")}));
   check_proven(find(wider, "o1"), held, 0);
   check_proven(find(wider, "a1"), held, 0);
-  const auto counted = prove(shape, hand::program(shape, {hand::group_statement(Op::change_count, "o1", "10*x1", Anchor::fit),
-                                                          statement(Op::scale_1d, "feet", Vec3::UnitY(), "x1")}));
+  const auto counted =
+      prove(shape, hand::program(shape, {hand::group_statement(Op::change_count, "o1", "10*x1", Anchor::fit),
+                                         statement(Op::scale_1d, "feet", Vec3::UnitY(), "x1")}));
   check_proven(find(counted, "o1"), held, 0);
   const auto stretched = prove(shape, hand::program(shape, {statement(Op::scale_1d, "feet", Vec3::UnitX(), "x1")}));
   CHECK(find(stretched, "o1").status == broken);
@@ -227,7 +232,9 @@ TEST_CASE("certified bounds hold for random programs on every shape") {
         double worst = 0;
         for (const State& state : states) worst = std::max(worst, deviation(constraint, state));
         CHECK(worst <= report.worst * (1 + 1e-12) + (report.proof == Proof::certified ? 1e-13 : 1e-3));
-        CHECK(report.worst <= worst * 1.02 + 1e-6 + (report.status == held ? tolerance_of(*constraint.relation, scope_of(shape, program, 0, {})) : 0));
+        CHECK(report.worst <=
+              worst * 1.02 + 1e-6 +
+                  (report.status == held ? tolerance_of(*constraint.relation, scope_of(shape, program, 0, {})) : 0));
         certified += report.proof == Proof::certified;
         ++reports;
       }

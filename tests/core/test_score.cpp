@@ -41,7 +41,8 @@ TEST_CASE("the measures look at 0.35, or at the end of the shorter range") {
   const Shape shape = hand::chair();
   const Program wide = hand::program(shape, {statement(Op::translate, "handle", Vec3::UnitX(), "x1")}, -1, 1);
   const Program still = hand::program(shape, {}, -0.1, 0.1);
-  CHECK(score_program(shape, wide, hand::program(shape, {}, -1, 1)).geometric == doctest::Approx(std::sqrt(8.0) * 0.35));
+  CHECK(score_program(shape, wide, hand::program(shape, {}, -1, 1)).geometric ==
+        doctest::Approx(std::sqrt(8.0) * 0.35));
   CHECK(score_program(shape, wide, still).geometric == doctest::Approx(std::sqrt(8.0) * 0.1));
   CHECK(score_program(shape, still, still).programmatic == 1);
 }
@@ -57,8 +58,7 @@ TEST_CASE("taking a group apart is a state of its relations; missing instances c
   CHECK(score.relations == 4);
   CHECK(score.structural == 0);
 
-  const Program more = hand::program(
-      shape, {hand::group_statement(Op::change_count, "t1", "10*x1", Anchor::start)});
+  const Program more = hand::program(shape, {hand::group_statement(Op::change_count, "t1", "10*x1", Anchor::start)});
   // Three instances become six, the further ones 0.2, 0.4, 0.6 from the last.
   CHECK(score_program(shape, hand::program(shape, {}), more).geometric == doctest::Approx(std::sqrt(8.0) * 1.2));
 }
