@@ -4,7 +4,8 @@
 // X = [m - h, m + h] and once with x = X itself, the two jets bound the function by Taylor's theorem:
 //   f(x) ∈ Σ_{k<N} c_k(m)·(x - m)^k + c_N(X)·(x - m)^N                                   (Moore 1966, N = Jet::order)
 // Motions that cancel, cancel coefficient by coefficient in the first jet, which plain intervals cannot see: of two
-// parts that turn by the same sin and cos, 1e-9 is left in one step (N = 8, h = 0.35), whatever the form of the amount.
+// parts that turn by the same sin and cos only rounding and the last term, of order h^N, are left, without any
+// bisection.
 #pragma once
 
 #include <array>
