@@ -40,7 +40,10 @@ struct Everything {
     glb.node({{"mesh", mesh}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 0, 0, 1}}, {"name", "slat_1"}});
     add_part(shape, 0, box(low, high));
     add_part(shape, 1, box(low + Vec3(4, 0, 0), high + Vec3(4, 0, 0)));
-    Relation group{"t1", RelationKind::translation, {PartIndex(0), PartIndex(1)}, Translation{}};
+    Relation group{"t1",
+                   RelationKind::translation,
+                   {PartIndex(0), PartIndex(1)},
+                   Translation{PartIndex(0), Vec3::Zero(), Vec3::Zero(), 0, 1}};
     shape.relations.push_back(group);
     state = resting(shape);
     GroupState& changed = state.groups[RelationIndex(0)];

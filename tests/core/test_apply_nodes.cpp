@@ -38,8 +38,10 @@ struct Slats {
     glb.json["nodes"].push_back(
         {{"name", "rail"}, {"mesh", glb.mesh({{"attributes", {{"POSITION", glb.vectors(points)}}}})}});
     add_part(shape, 4, slat(0));
-    shape.relations.push_back(
-        {"t1", RelationKind::translation, {PartIndex(0), PartIndex(1), PartIndex(2)}, Translation{}});
+    shape.relations.push_back({"t1",
+                               RelationKind::translation,
+                               {PartIndex(0), PartIndex(1), PartIndex(2)},
+                               Translation{PartIndex(0), Vec3::Zero(), Vec3::Zero(), 0, 1}});
   }
 
   Corners slat(double at, double taller = 1) const {

@@ -232,7 +232,10 @@ TEST_CASE("apply: instances come and go in the animation") {
     glb.node({{"name", "slat"}, {"mesh", mesh}, {"translation", {i, 0, 0}}});
     add_part(shape, static_cast<std::size_t>(i), box(low + Vec3(i, 0, 0), high + Vec3(i, 0, 0)));
   }
-  shape.relations.push_back({"t1", RelationKind::translation, {PartIndex(0), PartIndex(1)}, Translation{}});
+  shape.relations.push_back({"t1",
+                             RelationKind::translation,
+                             {PartIndex(0), PartIndex(1)},
+                             Translation{PartIndex(0), Vec3::Zero(), Vec3::Zero(), 0, 1}});
   const auto state = [&](std::size_t count) {
     State out = resting(shape);
     GroupState& group = out.groups[RelationIndex(0)];
