@@ -1,8 +1,8 @@
 #include "core/gallery/glb_writer.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -41,7 +41,11 @@ class BinaryChunk {
   void put_u16(std::uint32_t value) {
     for (int shift = 0; shift < 16; shift += 8) bytes_.push_back(static_cast<char>(value >> shift & 0xff));
   }
-  void put_float(float value) { put_u32(std::bit_cast<std::uint32_t>(value)); }
+  void put_float(float value) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    put_u32(bits);
+  }
   void put_text(const std::string& text) { bytes_ += text; }
   void pad(char with) {
     while (bytes_.size() % 4 != 0) bytes_.push_back(with);

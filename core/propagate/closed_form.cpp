@@ -114,11 +114,17 @@ std::optional<ClosedForm> AmountSolver::shorten(double factor, const ClosedForm&
 
 std::optional<ClosedForm> AmountSolver::accept(const ex& expression, const Candidate& candidate,
                                                const Samples& wanted) const {
-  // The plainest form that moves no point noticeably; lever and field are both per unit of the amount.
+  // The plainest form that moves no point noticeably; lever and field are both per unit of the amount. Rounding must
+  // not move anything at rest: a difference that vanishes at 0, like pi/2 - atan2(…), would no longer do so.
   const double reach = candidate.field.cwiseAbs().maxCoeff();
+  const auto at_rest = [&](const ex& form) {
+    const double zero = 0;
+    return std::abs(Amount(form).compile({parameter_})(&zero));
+  };
+  const double rest_slack = std::max(at_rest(expression), 1e-7);
   for (const double tolerance : {1e-3, 1e-5, 1e-8}) {
     const ex simple = Amount(expression).simplified(tolerance).expression();
-    if (!simple.has(parameter_symbol(parameter_))) continue;
+    if (!simple.has(parameter_symbol(parameter_)) || !(at_rest(simple) <= rest_slack)) continue;
     const auto values = sampled(simple, parameter_, at_);
     if (values && largest_difference(*values, wanted) * reach <= simplification_slack)
       return ClosedForm{simple, *values};

@@ -12,7 +12,7 @@
 #include "core/edit/apply_file.h"
 #include "core/edit/apply_scene.h"
 
-namespace parsel::fixture {
+namespace parsel::apply_fixture {
 
 using nlohmann::ordered_json;
 
@@ -235,4 +235,4 @@ inline bool bounds_hold(const std::string& glb) {
   return true;
 }
 
-}  // namespace parsel::fixture
+}  // namespace parsel::apply_fixture

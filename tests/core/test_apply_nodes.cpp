@@ -7,7 +7,7 @@
 #include "tests/core/apply_fixture.h"
 
 using namespace parsel;
-using namespace parsel::fixture;
+using namespace parsel::apply_fixture;
 
 namespace {
 
@@ -136,7 +136,10 @@ TEST_CASE("apply: turned instances are turned nodes") {
               {"rotation", {q[0], q[1], q[2], q[3]}}});
     add_part(shape, static_cast<std::size_t>(i), mapped(box(low, high), [&](const Vec3& p) { return at * p; }));
   }
-  shape.relations.push_back({"o1", RelationKind::rotation, {PartIndex(0), PartIndex(1), PartIndex(2)}, Rotation{}});
+  shape.relations.push_back({"o1",
+                             RelationKind::rotation,
+                             {PartIndex(0), PartIndex(1), PartIndex(2)},
+                             Rotation{PartIndex(0), Vec3::Zero(), Vec3::UnitY(), 1, 1.0}});
   State state = resting(shape);
   GroupState& group = state.groups[RelationIndex(0)];
   group.count_changed = true;

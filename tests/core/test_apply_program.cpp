@@ -12,7 +12,7 @@
 #include "tests/core/apply_fixture.h"
 
 using namespace parsel;
-using namespace parsel::fixture;
+using namespace parsel::apply_fixture;
 
 namespace {
 

@@ -72,8 +72,10 @@ Program program_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("the golden shapes are valid") {
-  for (const auto& [name, json] : golden("program_vectors.json")["shapes"].items()) {
-    const Result<Shape> shape = shape_from_json(json);
+  const auto vectors = golden("program_vectors.json");
+  for (const auto& item : vectors["shapes"].items()) {
+    const std::string& name = item.key();
+    const Result<Shape> shape = shape_from_json(item.value());
     REQUIRE_MESSAGE(shape.ok(), shape.error().message());
     const Status status = validate(*shape);
     CHECK_MESSAGE(status.ok(), name, ": ", status.ok() ? "" : status.error().message());

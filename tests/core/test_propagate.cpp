@@ -228,12 +228,12 @@ TEST_CASE("a part whose neighbour is widened and raised at once gets both edits"
 
 TEST_CASE("hints choose among the edits that keep the relations") {
   const Shape shape = test::chair();
-  const json raise = translate("seat", Vec3::UnitY());
-  const Propagation free = run(shape, {{"seed", {raise}}});
+  const json lift = translate("seat", Vec3::UnitY());
+  const Propagation free = run(shape, {{"seed", {lift}}});
   CHECK(statements_of(free, "leg_front_left")[0].op == Op::translate);
   json hints;
   for (const char* leg : {"leg_front_left", "leg_front_right", "leg_back_left", "leg_back_right"}) hints[leg] = "scale";
-  const Propagation scaled = run(shape, {{"seed", {raise}}, {"hints", hints}});
+  const Propagation scaled = run(shape, {{"seed", {lift}}, {"hints", hints}});
   const auto leg = statements_of(scaled, "leg_front_left");
   REQUIRE(leg.size() == 1);
   CHECK(leg[0].op == Op::scale_1d);
@@ -243,14 +243,14 @@ TEST_CASE("hints choose among the edits that keep the relations") {
   check_all_held(scaled);
 
   SUBCASE("a part that is kept fixed is never edited") {
-    const Propagation fixed = run(shape, {{"seed", {raise}}, {"hints", {{"back", "keep_fixed"}}}});
+    const Propagation fixed = run(shape, {{"seed", {lift}}, {"hints", {{"back", "keep_fixed"}}}});
     const auto back = statements_of(fixed, "back");
     REQUIRE(back.size() == 1);
     CHECK(back[0].op == Op::keep_fixed);
     CHECK(!step_of(fixed, "back").left_broken.empty());
   }
   SUBCASE("a hint that leaves no candidate keeps the part fixed and says why") {
-    const Propagation none = run(shape, {{"seed", {raise}}, {"hints", {{"back", "change_count"}}}});
+    const Propagation none = run(shape, {{"seed", {lift}}, {"hints", {{"back", "change_count"}}}});
     CHECK(step_of(none, "back").kind == "keep_fixed");
     CHECK(step_of(none, "back").why == "the hint leaves no candidate");
   }

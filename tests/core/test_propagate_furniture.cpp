@@ -73,7 +73,9 @@ TEST_CASE("real furniture: widened, raised and with one part moved, nothing fail
         {"widen", scale(wide, {0, 0, 0}, {1, 0, 0})},
         {"raise", scale(high, {0, -1, 0}, {0, 1, 0})},
         {"move", {{"op", "translate"}, {"part", deep.id}, {"direction", {0, 0, 1}}, {"amount", "x"}}}};
-    for (const auto& [name, seed] : seeds) {
+    for (const auto& entry : seeds) {
+      const char* const name = entry.first;
+      const json& seed = entry.second;
       CAPTURE(path.stem().string());
       CAPTURE(name);
       const auto request = edit_request_from_json({{"seed", {seed}}});

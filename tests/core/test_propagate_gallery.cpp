@@ -19,8 +19,8 @@ constexpr double accepted = 0.005;
 const std::map<std::string, std::string> known_failures = {
     {"desk/raise",
      "the spacing of the handles changes with the drawers; the generator makes the handles taller as well"},
-    {"bunk_bed/raise", "the platform and the stiles pull the rungs by slightly different amounts; they end between"},
-    {"bird_house/widen", "the entrance is tied to the wall by a line, so it widens; the generator keeps it round"},
+    {"wagon_wheel/broaden",
+     "hub and rim move less than the joints' tolerance, so that the spokes stay as wide as they were"},
 };
 
 struct Row {

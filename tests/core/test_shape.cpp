@@ -102,7 +102,8 @@ TEST_CASE("JSON that is no shape is refused by name") {
   // Every member of every part and relation removed or of a wrong type; warnings and what follows from the rest aside.
   for (const char* list : {"parts", "relations"}) {
     for (std::size_t i = 0; i < good[list].size(); ++i) {
-      for (const auto& [key, value] : good[list][i].items()) {
+      for (const auto& item : good[list][i].items()) {
+        const std::string& key = item.key();
         if (key == "count" || key == "delta" || key == "group" || key == "virtual") continue;
         CAPTURE(list);
         CAPTURE(i);
