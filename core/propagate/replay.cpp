@@ -304,7 +304,8 @@ class Stage {
   static void count_ring(Group& group, int count) {
     const Box original = group.instances[0];
     group.instances.assign(static_cast<std::size_t>(count), original);
-    group.source.assign(static_cast<std::size_t>(count), group.source[0]);
+    const int source = group.source[0];  // assign() must not be given one of its own elements
+    group.source.assign(static_cast<std::size_t>(count), source);
     for (int k = 0; k < count; ++k) {
       const Mat3 turn = rotation(group.axis, 2 * pi * k / count);
       for (Vec3& corner : group.instances[static_cast<std::size_t>(k)]) {
