@@ -89,7 +89,7 @@ npm npm"; fi
 need_emscripten() {
   need "emcc emscripten"
   # Debian's emscripten finds its JavaScript packages only through Debian's own Node.js, unless it is told.
-  if [ "$(readlink -f "$(command -v emcc)")" = /usr/share/emscripten/emcc ]; then
+  if [ "$(command -v emcc)" = /usr/bin/emcc ]; then
     export NODE_PATH=/usr/share/nodejs
     [ -w /usr/share/emscripten/cache ] || export EM_CACHE=$PARSEL_CACHE/emscripten
   fi
