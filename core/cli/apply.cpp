@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "core/cli/command.h"
+#include "core/cli/input.h"
 #include "core/cli/model.h"
 #include "core/cli/program_file.h"
 
@@ -30,11 +31,9 @@ int run(const Arguments& arguments) {
   const auto model = load_model(arguments.positional[0]);
   if (!model) return refuse(model.error());
   const Shape& shape = model->abstraction.shape;
-  const auto file = load_program(arguments.positional[1]);
-  if (!file) return refuse(file.error());
-  const Program& program = file->program;
-  if (const Status valid = validate(program, shape); !valid.ok()) return refuse(valid.error());
-  const auto values = parameter_values(program, arguments);
+  const auto program = read_program(arguments.positional[1], shape);
+  if (!program) return refuse(program.error());
+  const auto values = parameter_values(*program, arguments);
   if (!values) return refuse(values.error());
   std::optional<Animate> animate;
   if (arguments.has("--animate")) animate = Animate{arguments.option("--animate")};
@@ -46,7 +45,7 @@ int run(const Arguments& arguments) {
     options.only_parts = std::move(parts).value();
   }
 
-  const auto applied = apply_program(model->bytes, shape, program, *values, animate, std::move(options));
+  const auto applied = apply_program(model->bytes, shape, *program, *values, animate, std::move(options));
   if (!applied) return refuse(applied.error());
   for (const Warning& warning : applied->warnings) {
     std::cerr << "warning: " << warning.place << ": " << warning.text << '\n';

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/cli/command.h"
+#include "core/cli/input.h"
 #include "core/cli/program_file.h"
 #include "core/edit/evaluate.h"
 
@@ -34,29 +35,15 @@ json group_json(const Relation& relation, const GroupState& group) {
   return out;
 }
 
-Result<Shape> load_shape(const std::string& path) {
-  const Result<std::string> bytes = read_file(path);
-  if (!bytes.ok()) return bytes.error();
-  const json file = json::parse(*bytes, nullptr, false);
-  if (file.is_discarded()) return Error{"cli", path, "it is not valid JSON", "pass the output of parsel inspect"};
-  Result<Shape> shape = shape_from_json(file);
-  if (!shape.ok()) return shape;
-  const Status valid = validate(*shape);
-  if (!valid.ok()) return valid.error();
-  return shape;
-}
-
 int run(const Arguments& arguments) {
-  if (arguments.positional.size() != 2) return misuse("evaluate takes a shape and a program");
-  const Result<Shape> shape = load_shape(arguments.positional[0]);
+  if (arguments.positional.size() != 2) return misuse("evaluate takes a model and a program");
+  const Result<Shape> shape = read_shape(arguments.positional[0]);
   if (!shape.ok()) return refuse(shape.error());
-  const Result<ProgramFile> file = load_program(arguments.positional[1]);
-  if (!file.ok()) return refuse(file.error());
-  const Status valid = validate(file->program, *shape);
-  if (!valid.ok()) return refuse(valid.error());
-  const Result<std::vector<double>> values = parameter_values(file->program, arguments);
+  const Result<Program> program = read_program(arguments.positional[1], *shape);
+  if (!program.ok()) return refuse(program.error());
+  const Result<std::vector<double>> values = parameter_values(*program, arguments);
   if (!values.ok()) return refuse(values.error());
-  const State state = Evaluator(file->program, *shape)(*values);
+  const State state = Evaluator(*program, *shape)(*values);
   json out = {{"parts", json::object()}, {"groups", json::object()}};
   for (const PartIndex p : shape->parts.indices()) out["parts"][shape->parts[p].id] = corners_json(state.parts[p]);
   for (const RelationIndex r : shape->relations.indices()) {
@@ -70,7 +57,7 @@ int run(const Arguments& arguments) {
 
 extern const Command evaluate_command;
 const Command evaluate_command = {"evaluate",
-                                  "SHAPE.json PROGRAM [--set x1=0.2]… [-o STATE.json]",
+                                  "MODEL.glb|SHAPE.json PROGRAM [--set x1=0.2]… [-o STATE.json]",
                                   "Prints the corners of all parts and group instances under a program.",
                                   {"--set", "-o"},
                                   {},

@@ -1,4 +1,5 @@
 // `parsel gallery DIR`: writes every gallery model and a list of them.
+#include <charconv>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -8,9 +9,20 @@
 namespace parsel::cli {
 namespace {
 
+int write_wall(const std::string& folder, const std::string& count) {
+  int parts = 0;
+  const auto [end, problem] = std::from_chars(count.data(), count.data() + count.size(), parts);
+  if (problem != std::errc() || end != count.data() + count.size()) return misuse("--wall takes a number of parts");
+  const Result<GalleryAsset> wall = scaling_model(parts);
+  if (!wall) return refuse(wall.error());
+  const Status written = write_file(folder + "/" + wall->id + ".glb", wall->glb);
+  return written ? exit_done : refuse(written.error());
+}
+
 int run(const Arguments& arguments) {
   if (arguments.positional.size() != 1) return misuse("gallery takes one folder, which must exist");
   const std::string& folder = arguments.positional.front();
+  if (arguments.has("--wall")) return write_wall(folder, arguments.option("--wall"));
   nlohmann::json list = nlohmann::json::array();
   for (const GalleryModel& model : gallery_models()) {
     const Result<GalleryAsset> asset = build(model);
@@ -29,8 +41,12 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 extern const Command gallery_command;
-const Command gallery_command = {
-    "gallery", "DIR", "Writes every gallery model as DIR/<id>.glb and the list of them as DIR/gallery.json.",
-    {},        {},    run};
+const Command gallery_command = {"gallery",
+                                 "DIR [--wall N]",
+                                 "Writes every gallery model as DIR/<id>.glb and the list of them as DIR/gallery.json "
+                                 "(--wall: instead a wall of shelves with N parts, for benchmarks).",
+                                 {"--wall"},
+                                 {},
+                                 run};
 
 }  // namespace parsel::cli

@@ -37,6 +37,7 @@ Result<Shape> read_shape(const std::string& path) {
   if (!json) return json.error();
   Result<Shape> shape = shape_from_json(*json);
   if (!shape) return at_path(shape.error(), path);
+  if (const Status valid = validate(*shape); !valid) return at_path(valid.error(), path);
   return shape;
 }
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/cli/command.h"
-#include "core/cli/model.h"
+#include "core/cli/input.h"
 #include "core/propagate/propagate.h"
 
 namespace parsel::cli {
@@ -11,21 +11,17 @@ namespace {
 
 int run(const Arguments& arguments) {
   if (arguments.positional.size() != 2) return misuse("propagate takes a model and an edit");
-  const Result<Model> model = load_model(arguments.positional[0]);
-  if (!model.ok()) return refuse(model.error());
-  const std::string& path = arguments.positional[1];
-  const Result<std::string> text = read_file(path);
-  if (!text.ok()) return refuse(text.error());
-  const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
-  if (json.is_discarded())
-    return refuse({"cli/propagate", path, "the file is not JSON", "check its brackets and commas"});
-  const Result<EditRequest> request = edit_request_from_json(json);
+  const Result<Shape> shape = read_shape(arguments.positional[0]);
+  if (!shape.ok()) return refuse(shape.error());
+  const Result<nlohmann::json> edit = read_json(arguments.positional[1]);
+  if (!edit.ok()) return refuse(edit.error());
+  const Result<EditRequest> request = edit_request_from_json(*edit);
   if (!request.ok()) return refuse(request.error());
   PropagateOptions options;
   options.request = arguments.option("--request");
   options.neighbour_edits = !arguments.has("--no-neighbour-edits");
   options.breaking_edits = !arguments.has("--no-breaking-edits");
-  const Result<Propagation> found = propagate(model->abstraction.shape, *request, options);
+  const Result<Propagation> found = propagate(*shape, *request, options);
   if (!found.ok()) return refuse(found.error());
   if (arguments.has("--trace")) {
     const std::string trace =
@@ -42,7 +38,7 @@ int run(const Arguments& arguments) {
 extern const Command propagate_command;
 const Command propagate_command = {
     "propagate",
-    "MODEL.glb EDIT.json [-o PROGRAM.json] [--trace TRACE.json] [--request TEXT] [--no-neighbour-edits] "
+    "MODEL.glb|SHAPE.json EDIT.json [-o PROGRAM.json] [--trace TRACE.json] [--request TEXT] [--no-neighbour-edits] "
     "[--no-breaking-edits]",
     "Finds the edits that follow from seed edits, as a program (--trace: and why).",
     {"-o", "--trace", "--request"},

@@ -1,7 +1,8 @@
 #include "core/edit/apply_file.h"
 
-#include <array>
 #include <nlohmann/json.hpp>
+
+#include "core/base/uri.h"
 
 namespace parsel::gltf {
 namespace {
@@ -11,7 +12,6 @@ using nlohmann::ordered_json;
 constexpr std::uint32_t glb_magic = 0x46546C67;   // "glTF"
 constexpr std::uint32_t json_chunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t bin_chunk = 0x004E4942;   // "BIN\0"
-constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 Error refusal(std::string place, std::string cause, std::string fix) {
   return {"edit/apply_file", std::move(place), std::move(cause), std::move(fix)};
@@ -27,25 +27,6 @@ void write_u32(std::string& out, std::uint32_t value) {
   for (int i = 0; i < 4; ++i) out += static_cast<char>(value >> (8 * i) & 0xFF);
 }
 
-std::string percent_decoded(std::string_view uri) {
-  const auto digit = [](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-  };
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
-      out += static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2]));
-      i += 2;
-    } else {
-      out += uri[i];
-    }
-  }
-  return out;
-}
-
 bool is_data_uri(std::string_view uri) {
   return uri.substr(0, 5) == "data:";
 }
@@ -55,12 +36,12 @@ std::optional<std::string> data_uri_bytes(std::string_view uri) {
   if (comma == std::string_view::npos) return std::nullopt;
   const std::string_view header = uri.substr(0, comma), body = uri.substr(comma + 1);
   if (header.size() >= 7 && header.substr(header.size() - 7) == ";base64") return base64_decode(body);
-  return percent_decoded(body);
+  return percent_decode(body);
 }
 
 const std::string* given(const ExternalFiles& external, const std::string& uri) {
   auto found = external.find(uri);
-  if (found == external.end()) found = external.find(percent_decoded(uri));
+  if (found == external.end()) found = external.find(percent_decode(uri));
   return found == external.end() ? nullptr : &found->second;
 }
 
@@ -134,41 +115,6 @@ void write_chunk(std::string& out, std::uint32_t type, std::string bytes, char p
 }
 
 }  // namespace
-
-std::string base64_encode(std::string_view bytes) {
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= n ? alphabet[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
-
-std::optional<std::string> base64_decode(std::string_view text) {
-  std::array<int, 256> values;
-  values.fill(-1);
-  for (std::size_t i = 0; i < alphabet.size(); ++i)
-    values[static_cast<unsigned char>(alphabet[i])] = static_cast<int>(i);
-  std::string out;
-  out.reserve(text.size() / 4 * 3);
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    const int value = values[static_cast<unsigned char>(c)];
-    if (value < 0) return std::nullopt;
-    group = (group << 6 | static_cast<std::uint32_t>(value)) & 0xFFFFFF;
-    bits += 6;
-    if (bits >= 8) {
-      bits -= 8;
-      out += static_cast<char>(group >> bits & 0xFF);
-    }
-  }
-  return out;
-}
 
 JsonText* File::find_item(std::string_view array, std::size_t i) {
   JsonText* all = json.find(array);

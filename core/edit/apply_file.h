@@ -51,8 +51,4 @@ void embed(File& file, const ExternalFiles& external);
 /// Buffer 0 becomes the binary chunk. Error: its bytes are missing, or the result has more than 4 GB.
 Result<std::string> write_glb(File file);
 
-std::string base64_encode(std::string_view bytes);
-/// None when a character is not of the alphabet.
-std::optional<std::string> base64_decode(std::string_view text);
-
 }  // namespace parsel::gltf

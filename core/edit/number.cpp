@@ -7,6 +7,7 @@
 namespace parsel {
 
 std::string shortest_decimal(double value) {
+  value += 0.0;  // -0 is 0
   std::array<char, 40> buffer{};
   // Nearly every number of ours has few digits or all of them, so that trying in order costs little.
   for (int digits = 1; digits <= 17; ++digits) {

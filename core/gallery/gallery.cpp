@@ -57,7 +57,7 @@ Result<GalleryAsset> build(const GalleryModel& model, const GalleryValues& overr
 nlohmann::json gallery_entry(const GalleryModel& model, const GalleryAsset& asset) {
   nlohmann::json requests = nlohmann::json::array();
   for (const GalleryEdit& edit : asset.edits) {
-    requests.push_back({{"request", edit.request}, {"edit", nlohmann::json::parse(edit.json)}});
+    requests.push_back({{"id", edit.id}, {"request", edit.request}, {"edit", nlohmann::json::parse(edit.json)}});
   }
   return {{"id", model.id},
           {"title", model.title},

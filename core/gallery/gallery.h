@@ -84,7 +84,8 @@ const GalleryModel* find_gallery_model(std::string_view id);
 /// are not finite, out of range, or (unit "count") not whole.
 Result<GalleryAsset> build(const GalleryModel& model, const GalleryValues& overrides = {});
 
-/// An entry of gallery.json: {"id","title","file","bytes","parts","requests":[{"request","edit": parsel/edit v1}]}.
+/// An entry of gallery.json: {"id","title","file","bytes","parts","requests":[{"id","request","edit": parsel/edit
+/// v1}]}.
 nlohmann::json gallery_entry(const GalleryModel& model, const GalleryAsset& asset);
 
 /// A wall of shelves with exactly `part_count` parts (5 to 1000), to measure how time grows with size. Not in the list.

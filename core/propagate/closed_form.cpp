@@ -67,6 +67,7 @@ AmountSolver::AmountSolver(const std::vector<PointConstraint>& constraints, cons
 std::optional<ClosedForm> AmountSolver::solve(const Candidate& candidate, const Samples& wanted) {
   if (auto form = proportional(candidate, wanted)) return form;
   if (candidate.what.op == Op::rotate) {
+    if (auto form = same_turn(candidate, wanted)) return form;
     if (auto form = from_equation(candidate, wanted)) return form;
     return from_angle(candidate, wanted);
   }
@@ -87,6 +88,19 @@ std::optional<ClosedForm> AmountSolver::proportional(const Candidate& candidate,
     for (std::size_t s = 0; s < sample_count; ++s) product[s] = factor * drive.values[s];
     if (largest_difference(product, wanted) > same) continue;
     return shorten(factor, drive, candidate, wanted);
+  }
+  return std::nullopt;
+}
+
+std::optional<ClosedForm> AmountSolver::same_turn(const Candidate& candidate, const Samples& wanted) const {
+  const Rows rows(constraints_);
+  const double allowed = std::max(exact, missed_by(candidate, wanted, rows));
+  for (const ClosedForm& drive : driving_) {
+    for (const int sign : {1, -1}) {
+      Samples values;
+      for (std::size_t s = 0; s < sample_count; ++s) values[s] = sign * drive.values[s];
+      if (missed_by(candidate, values, rows) <= allowed) return ClosedForm{sign * drive.expression, values};
+    }
   }
   return std::nullopt;
 }

@@ -38,6 +38,9 @@ class AmountSolver {
   std::optional<ClosedForm> proportional(const Candidate& candidate, const Samples& wanted) const;
 
  private:
+  /// The turn of a neighbour, or its opposite, where that is as good as the fit: joints that are a little off make the
+  /// fitted angle differ by less than they are off.
+  std::optional<ClosedForm> same_turn(const Candidate& candidate, const Samples& wanted) const;
   std::optional<ClosedForm> from_equation(const Candidate& candidate, const Samples& wanted);
   std::optional<ClosedForm> from_angle(const Candidate& candidate, const Samples& wanted);
   std::optional<ClosedForm> accept(const GiNaC::ex& expression, const Candidate& candidate,

@@ -257,7 +257,7 @@ class Loop {
       if (by > exact) broken.push_back(id(relation));
     }
     Solution solution;
-    std::vector<PartIndex> others = neighbours(part);
+    const std::vector<PartIndex> sources = reference_parts(part);
     if (!mirror_neighbour(part, solution, trace)) {
       const Scene scene{graph_, edits_, goals_, options_.parameter, at_, solve_options_};
       solution = solve_part(scene, part, hint, constraints, trace);
@@ -282,7 +282,7 @@ class Loop {
     } else {
       trace.kind = kind_name(solution.kind);
       for (const Step& step : solution.steps) {
-        Statement statement = to_statement(shape_, part, step, others);
+        Statement statement = to_statement(shape_, part, step, sources);
         statement.why = Why{solution.kind, broken};
         trace.statements.push_back(static_cast<int>(layer_.statements.size()));
         layer_.statements.push_back(std::move(statement));
@@ -307,10 +307,15 @@ class Loop {
     return false;
   }
 
-  std::vector<PartIndex> neighbours(PartIndex part) const {
-    std::vector<PartIndex> others;
-    for (const RelationIndex relation : graph_.relations(part)) others.push_back(graph_.other(relation, part));
-    return others;
+  /// Whose points and axes a statement on the part may name, the nearest first: the part's own, its neighbours', those
+  /// of the parts that are edited already.
+  std::vector<PartIndex> reference_parts(PartIndex part) const {
+    std::vector<PartIndex> sources = {part};
+    for (const RelationIndex relation : graph_.relations(part)) sources.push_back(graph_.other(relation, part));
+    for (const PartIndex other : graph_.parts()) {
+      if (edits_[other]) sources.push_back(other);
+    }
+    return sources;
   }
 
   int add_keep_fixed(PartIndex part, Why why) {

@@ -49,10 +49,7 @@ std::optional<Anchor> mapped_anchor(const Shape& shape, const Reflection& plane,
   return anchor == Anchor::start ? Anchor::end : Anchor::start;
 }
 
-PointReference point_reference(const Shape& shape, PartIndex part, const std::vector<PartIndex>& others,
-                               const Vec3& point) {
-  std::vector<PartIndex> sources = {part};
-  sources.insert(sources.end(), others.begin(), others.end());
+PointReference point_reference(const Shape& shape, const std::vector<PartIndex>& sources, const Vec3& point) {
   for (const PartIndex source : sources) {
     const Part& candidate = shape.parts[source];
     const Vec3 local = candidate.hexahedron.local(point);
@@ -66,13 +63,11 @@ PointReference point_reference(const Shape& shape, PartIndex part, const std::ve
 }
 
 /// The reference and the sign with which `direction` is along it.
-std::pair<DirectionReference, double> direction_reference(const Shape& shape, PartIndex part,
-                                                          const std::vector<PartIndex>& others, const Vec3& direction) {
+std::pair<DirectionReference, double> direction_reference(const Shape& shape, const std::vector<PartIndex>& sources,
+                                                          const Vec3& direction) {
   for (int g = 0; g < 3; ++g) {
     if (std::abs(std::abs(direction[g]) - 1) < 1e-9) return {Vec3(Vec3::Unit(g)), direction[g] > 0 ? 1 : -1};
   }
-  std::vector<PartIndex> sources = {part};
-  sources.insert(sources.end(), others.begin(), others.end());
   for (const PartIndex source : sources) {
     const Part& candidate = shape.parts[source];
     for (int axis = 0; axis < 3; ++axis) {
@@ -122,7 +117,7 @@ std::optional<std::vector<Step>> reflected(const Shape& shape, const Relation& r
   return result;
 }
 
-Statement to_statement(const Shape& shape, PartIndex part, const Step& step, const std::vector<PartIndex>& others) {
+Statement to_statement(const Shape& shape, PartIndex part, const Step& step, const std::vector<PartIndex>& sources) {
   const ResolvedOperator& what = step.what;
   Statement statement;
   statement.op = what.op;
@@ -135,15 +130,15 @@ Statement to_statement(const Shape& shape, PartIndex part, const Step& step, con
   }
   statement.part = shape.parts[part].id;
   statement.feature = what.feature;
-  if (needs_origin(what.op)) statement.origin = point_reference(shape, part, others, what.origin);
+  if (needs_origin(what.op)) statement.origin = point_reference(shape, sources, what.origin);
   double sign = 1;
   if (needs_direction(what.op)) {
-    const auto [reference, s] = direction_reference(shape, part, others, what.direction);
+    const auto [reference, s] = direction_reference(shape, sources, what.direction);
     statement.direction = reference;
     if (what.op != Op::scale_1d) sign *= s;
   }
   if (needs_normal(what.op)) {
-    const auto [reference, s] = direction_reference(shape, part, others, what.normal);
+    const auto [reference, s] = direction_reference(shape, sources, what.normal);
     statement.normal = reference;
     if (what.op == Op::shear) sign *= s;
   }

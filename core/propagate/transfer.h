@@ -14,10 +14,9 @@ namespace parsel {
 std::optional<std::vector<Step>> reflected(const Shape& shape, const Relation& reflection, PartIndex from,
                                            const std::vector<Step>& steps);
 
-/// A step as a statement. Points and axes are written as references to features: of the part itself where they are
-/// such, else of one of `others`, else as numbers. Directions are written with positive sign where the amount can take
-/// it.
-Statement to_statement(const Shape& shape, PartIndex part, const Step& step, const std::vector<PartIndex>& others);
+/// A step of `part` as a statement. Points and axes are written as features of the first of `sources` that has them,
+/// else as numbers. Directions are written with positive sign where the amount can take it.
+Statement to_statement(const Shape& shape, PartIndex part, const Step& step, const std::vector<PartIndex>& sources);
 
 /// Resolves a statement's references on the shape at rest. The statement's parts must be known.
 Step to_step(const Shape& shape, const Statement& statement);

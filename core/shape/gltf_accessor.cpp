@@ -110,9 +110,7 @@ Result<std::vector<T>> read_elements(const GltfDocument& document, int index, st
         find_run(document, index, accessor.bufferView, accessor.byteOffset, accessor.count, element_size, true);
     if (!run.ok()) return run.error();
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = read(run->bytes.data() + i * run->stride);
-  } else if (!accessor.sparse.isSparse) {
-    return damaged(index, "it has no bufferView");
-  }
+  }  // an accessor without bufferView is all zeros (glTF 2.0 §3.6.2.3)
   if (!accessor.sparse.isSparse) return values;
 
   const auto& sparse = accessor.sparse;

@@ -9,6 +9,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "core/base/uri.h"
+
 namespace parsel {
 namespace {
 
@@ -248,55 +250,6 @@ Status check_asset(const json& file) {
   return success();
 }
 
-std::string percent_decoded(std::string_view uri) {
-  const auto digit = [](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-  };
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
-      text += static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2]));
-      i += 2;
-    } else {
-      text += uri[i];
-    }
-  }
-  return text;
-}
-
-/// Base64 (RFC 4648), padding optional; nothing when another character occurs.
-std::optional<std::string> base64_decoded(std::string_view text) {
-  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  std::string bytes;
-  bytes.reserve(text.size() * 3 / 4);
-  std::uint32_t bits = 0;
-  int held = 0;
-  for (const char c : text) {
-    std::uint32_t value = 0;
-    if (c >= 'A' && c <= 'Z') {
-      value = static_cast<std::uint32_t>(c - 'A');
-    } else if (c >= 'a' && c <= 'z') {
-      value = static_cast<std::uint32_t>(c - 'a' + 26);
-    } else if (c >= '0' && c <= '9') {
-      value = static_cast<std::uint32_t>(c - '0' + 52);
-    } else if (c == '+' || c == '/') {
-      value = c == '+' ? 62 : 63;
-    } else {
-      return std::nullopt;
-    }
-    bits = bits << 6 | value;
-    held += 6;
-    if (held >= 8) {
-      held -= 8;
-      bytes += static_cast<char>(bits >> held & 0xff);
-    }
-  }
-  return bytes;
-}
-
 Result<GltfBuffer> read_buffer(const json& entry, std::size_t index, const Container& container,
                                const ExternalBuffers& external) {
   const std::string place = "buffer " + std::to_string(index);
@@ -321,12 +274,12 @@ Result<GltfBuffer> read_buffer(const json& entry, std::size_t index, const Conta
     if (comma == std::string::npos || !std::string_view(text).substr(0, comma).ends_with(";base64")) {
       return refused(place, "its data URI is not base64");
     }
-    std::optional<std::string> decoded = base64_decoded(std::string_view(text).substr(comma + 1));
+    std::optional<std::string> decoded = base64_decode(std::string_view(text).substr(comma + 1));
     if (!decoded) return refused(place, "its data URI holds a character that is not base64");
     buffer.decoded = std::move(*decoded);
     buffer.bytes = buffer.decoded;
   } else {
-    const auto file = external.find(percent_decoded(text));
+    const auto file = external.find(percent_decode(text));
     if (file == external.end()) {
       buffer.missing = "the file '" + printable(text) + "' is not there";
       return buffer;
@@ -389,7 +342,7 @@ std::vector<std::string> external_buffer_uris(std::string_view bytes) {
     const auto uri = buffer.find("uri");
     if (uri == buffer.end() || !uri->is_string()) continue;
     const std::string& text = uri->get_ref<const std::string&>();
-    if (!text.starts_with("data:")) uris.push_back(percent_decoded(text));
+    if (!text.starts_with("data:")) uris.push_back(percent_decode(text));
   }
   return uris;
 }

@@ -36,30 +36,30 @@ enum class RelationKind { reflection, translation, rotation, point, line, face, 
 
 /// parts = {a, b}, mirror images of each other about the plane.
 struct Reflection {
-  Vec3 origin;  ///< a point of the plane
-  Vec3 normal;  ///< unit, a global axis
+  Vec3 origin = Vec3::Zero();   ///< a point of the plane
+  Vec3 normal = Vec3::UnitX();  ///< unit, a global axis
   /// Corner k of part b is the mirror image of corner corner_map[k] of part a.
-  std::array<int, 8> corner_map;
+  std::array<int, 8> corner_map = {0, 1, 2, 3, 4, 5, 6, 7};
 };
 
 /// parts = the instances in order, at equal distances. Over-parameterised (supplement §3.2): start, middle (their
 /// mean), end, count (number of parts), delta = (end - start) / (count - 1). The points are tied to the virtual parent
 /// by their local coordinates in it.
 struct Translation {
-  PartIndex parent;  ///< the virtual part
-  Vec3 start, end;   ///< centres of the first and the last instance
-  int axis;          ///< local axis of the parent that delta is most along
-  int direction;     ///< 1 when delta points along +axis, else -1
+  PartIndex parent;                               ///< the virtual part
+  Vec3 start = Vec3::Zero(), end = Vec3::Zero();  ///< centres of the first and the last instance
+  int axis = 0;                                   ///< local axis of the parent that delta is most along
+  int direction = 1;                              ///< 1 when delta points along +axis, else -1
 };
 
 /// parts = the instances in order of angle, a closed loop: instance k is instance 0 turned by k · 2π/count about the
 /// axis (right-handed), corner by corner, so their local axes turn with them.
 struct Rotation {
-  PartIndex parent;  ///< the virtual part
-  Vec3 centre;       ///< on the axis, at the height of the instances' centres
-  Vec3 axis;         ///< unit
-  int parent_axis;   ///< local axis of the parent that `axis` is along
-  double radius;     ///< distance of the instances' centres from the axis
+  PartIndex parent;            ///< the virtual part
+  Vec3 centre = Vec3::Zero();  ///< on the axis, at the height of the instances' centres
+  Vec3 axis = Vec3::UnitY();   ///< unit
+  int parent_axis = 1;         ///< local axis of the parent that `axis` is along
+  double radius = 0;           ///< distance of the instances' centres from the axis
 };
 
 /// parts = {a, b}; the same points seen from both.

@@ -40,7 +40,7 @@ double median_ms(const Shape& shape, const EditRequest& request, int runs) {
   return median(times);
 }
 
-void gallery() {
+void gallery_edits() {
   std::vector<double> all;
   for (const GalleryModel& model : gallery_models()) {
     const auto asset = build(model);
@@ -75,7 +75,7 @@ EditRequest widen(const Shape& shape) {
                                      {"amount", "x"}}}}});
 }
 
-void furniture() {
+void furniture_widened() {
   const char* data = std::getenv("PARSEL_DATA");
   if (data == nullptr) {
     std::fprintf(stderr, "furniture is skipped: PARSEL_DATA is not set\n");
@@ -102,7 +102,7 @@ void furniture() {
 }
 
 /// Widening a wall of shelves.
-void growth() {
+void growing_walls() {
   for (const int parts : {5, 10, 20, 50, 100}) {
     const auto asset = scaling_model(parts);
     if (!asset.ok()) return;
@@ -117,7 +117,7 @@ void growth() {
 }  // namespace
 
 int main() {
-  gallery();
-  furniture();
-  growth();
+  gallery_edits();
+  furniture_widened();
+  growing_walls();
 }

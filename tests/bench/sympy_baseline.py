@@ -123,7 +123,7 @@ class Baseline:
         self.count = {"parts": 0, "candidates": 0, "equations": 0, "solves": 0}
         self.measured = self.seconds = 0.0
         self.extrapolated, self.finished = False, True
-        self.began = time.perf_counter()
+        self.began = time.process_time()
 
     def statement(self, s):
         def point(ref):
@@ -196,7 +196,7 @@ class Baseline:
 
     def work(self, part, edit):
         """One candidate, as in algorithm 3: solve every equation for Y on its own, check every solution."""
-        start = time.perf_counter()
+        start = time.process_time()
         rest = self.parts[part]["corners"]
         equations = self.constraints(part, apply(edit, rest, Y))
         solutions = set()
@@ -215,7 +215,7 @@ class Baseline:
             if self.worst([sympy.sympify(e).subs(Y, solution) for e in equations], values) <= ONE_EDITED:
                 accepted.append(solution)
         self.count["equations"] += len(equations)
-        return time.perf_counter() - start, accepted
+        return time.process_time() - start, accepted
 
     def fits(self, part, edit):
         """Numeric screen, not part of the paper: largest miss of the best amounts at four values of x."""
@@ -281,7 +281,7 @@ class Baseline:
             pool = [e for e in everything if e[0] == op]
             if not pool:
                 continue
-            if time.perf_counter() - self.began > self.options.seconds:
+            if time.process_time() - self.began > self.options.seconds:
                 self.finished = False
                 break
             drawn = pool
@@ -324,7 +324,7 @@ def main():
     parser.add_argument("shape", help="what `parsel inspect` prints")
     parser.add_argument("edit", help="format parsel/edit v1")
     parser.add_argument("--sample", type=int, default=3, help="candidates of each operator and part; 0: all")
-    parser.add_argument("--seconds", type=float, default=600, help="end the run after this time")
+    parser.add_argument("--seconds", type=float, default=600, help="end the run after this processor time")
     parser.add_argument("--parts", type=int, default=0, help="end after this many solved parts; 0: all")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()

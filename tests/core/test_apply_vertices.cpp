@@ -1,6 +1,7 @@
 // Accessors that are shared, interleaved, sparse, quantised or outside of the binary chunk.
 #include <doctest/doctest.h>
 
+#include "core/base/uri.h"
 #include "tests/core/apply_fixture.h"
 
 using namespace parsel;
@@ -253,7 +254,7 @@ TEST_CASE("apply: a glTF with a data URI or a file beside it becomes a GLB") {
   ApplyOptions options;
   options.external["wood grain.png"] = "\x89PNG and more";
 
-  json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + gltf::base64_encode(glb.binary);
+  json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_encode(glb.binary);
   auto out = apply_state(json.dump(1), shape, state, options);
   REQUIRE(out.ok());
   CHECK(attribute(out->glb, 0, "POSITION") == shifted(points, Vec3(0, 1, 0)));
@@ -271,5 +272,4 @@ TEST_CASE("apply: a glTF with a data URI or a file beside it becomes a GLB") {
   out = apply_state(json.dump(), shape, state, options);
   REQUIRE(out.ok());
   CHECK(attribute(out->glb, 0, "POSITION") == shifted(points, Vec3(0, 1, 0)));
-  CHECK(gltf::base64_decode(gltf::base64_encode(glb.binary)) == glb.binary);
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/base/uri.h"
 #include "core/shape/abstraction.h"
 #include "core/shape/gltf_import.h"
 #include "tests/core/glb_fixture.h"
@@ -30,20 +31,6 @@ std::string refusal(const std::function<void(fixture::Document&)>& change) {
   change(d);
   const Result<ImportedModel> model = import_gltf(d.glb());
   return model.ok() ? "" : model.error().message();
-}
-
-std::string base64(const std::string& bytes) {
-  static const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  std::uint32_t bits = 0;
-  int held = 0;
-  for (const char c : bytes) {
-    bits = bits << 8 | static_cast<unsigned char>(c);
-    for (held += 8; held >= 6;) out += digits[bits >> (held -= 6) & 63];
-  }
-  if (held > 0) out += digits[bits << (6 - held) & 63];
-  while (out.size() % 4 != 0) out += '=';
-  return out;
 }
 
 bool contains(const std::string& text, const std::string& piece) {
@@ -71,7 +58,7 @@ TEST_CASE("buffers may be data URIs or external files, with names that are perce
   fixture::Document d = fixture::document(fixture::table());
   const auto inside = import_gltf(d.glb());
   REQUIRE(inside.ok());
-  d.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(d.binary);
+  d.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_encode(d.binary);
   const auto embedded = import_gltf(d.json.dump());
   REQUIRE(embedded.ok());
   CHECK(embedded->meshes[PartIndex(3)].positions == inside->meshes[PartIndex(3)].positions);
@@ -114,7 +101,7 @@ TEST_CASE("nodes place their meshes, share them, and lend their names before mes
   CHECK((model->meshes[PartIndex(2)].world.topRightCorner<3, 1>() - Vec3(10, -5, 0)).norm() < 1e-12);
 }
 
-TEST_CASE("quantised, normalised and sparse positions, strips, fans and missing indices are read") {
+TEST_CASE("quantised, normalised, sparse and absent positions, strips, fans and missing indices are read") {
   fixture::Document d;
   // A quad of four normalised shorts, stride 8, as a strip and as a fan, then one with a sparse fourth corner.
   for (const auto& [x, y] : {std::pair{0, 0}, {32767, 0}, {0, 32767}, {32767, 32767}}) {
@@ -141,8 +128,9 @@ TEST_CASE("quantised, normalised and sparse positions, strips, fans and missing 
              {{{"primitives",
                 {{{"attributes", {{"POSITION", 0}}}, {"mode", 5}},
                  {{"attributes", {{"POSITION", 0}}}, {"mode", 6}},
-                 {{"attributes", {{"POSITION", 1}}}, {"mode", 5}}}}}}},
-            {"accessors", {accessor, sparse}},
+                 {{"attributes", {{"POSITION", 1}}}, {"mode", 5}},
+                 {{"attributes", {{"POSITION", 2}}}, {"mode", 5}}}}}}},
+            {"accessors", {accessor, sparse, {{"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}}},
             {"bufferViews",
              {{{"buffer", 0}, {"byteLength", 32}, {"byteStride", 8}},
               {{"buffer", 0}, {"byteOffset", 32}, {"byteLength", 4}},
@@ -151,11 +139,13 @@ TEST_CASE("quantised, normalised and sparse positions, strips, fans and missing 
   const auto model = import_gltf(d.glb());
   REQUIRE_MESSAGE(model.ok(), (model.ok() ? "" : model.error().message()));
   CHECK(model->warnings.empty());
-  REQUIRE(model->meshes.size() == 3);
+  REQUIRE(model->meshes.size() == 4);
   CHECK(model->meshes[PartIndex(0)].triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
   CHECK(model->meshes[PartIndex(1)].triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
   CHECK((model->frame.to_model(model->meshes[PartIndex(0)].positions[3]) - Vec3(1, 1, 0)).norm() < 1e-9);
   CHECK((model->frame.to_model(model->meshes[PartIndex(2)].positions[3]) - Vec3(0.5, 0.5, 0)).norm() < 1e-4);
+  // An accessor without a bufferView is all zeros.
+  for (const Vec3& p : model->meshes[PartIndex(3)].positions) CHECK(model->frame.to_model(p).norm() < 1e-12);
 }
 
 TEST_CASE("what is sound but not read is named in a warning") {

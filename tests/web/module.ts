@@ -19,3 +19,11 @@ export async function loadModule(): Promise<LoadedModule> {
     printErr: () => {},
   });
 }
+
+/** The result and the buffers of a call; an error value is thrown. */
+export function call<T>(core: LoadedModule, method: string, parameters: unknown, buffers: Uint8Array[] = []) {
+  const reply = core.invoke(method, JSON.stringify(parameters), buffers, null);
+  const message = JSON.parse(reply.json) as { result?: T; error?: unknown };
+  if (message.result === undefined) throw new Error(JSON.stringify(message.error));
+  return { result: message.result, buffers: reply.buffers };
+}

@@ -1,0 +1,160 @@
+// The `parsel` tool as people call it: every command on a gallery model, and how it refuses.
+import { execFileSync, spawnSync } from 'node:child_process';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+
+const tool = fileURLToPath(new URL('../../build/native-debug/core/parsel', import.meta.url));
+let folder: string;
+
+function run(...given: string[]): string {
+  return execFileSync(tool, given, { cwd: folder, encoding: 'utf8', maxBuffer: 1 << 28, stdio: 'pipe' });
+}
+const runJson = (...given: string[]) => JSON.parse(run(...given));
+/** What a command that does not succeed says on stderr, and its exit code. */
+function refusal(...given: string[]): { code: number | null; text: string; output: string } {
+  const { status, stderr, stdout } = spawnSync(tool, given, { cwd: folder, encoding: 'utf8' });
+  return { code: status, text: stderr, output: stdout };
+}
+const write = (name: string, content: unknown) =>
+  writeFileSync(join(folder, name), typeof content === 'string' ? content : JSON.stringify(content));
+const readJson = (name: string) => JSON.parse(readFileSync(join(folder, name), 'utf8'));
+
+const widen = {
+  seed: [{ op: 'scale_1d', part: 'seat', origin: { part: 'seat', at: [0, 0, 0] }, direction: [1, 0, 0], amount: 'x' }],
+};
+
+beforeAll(() => {
+  folder = mkdtempSync(join(tmpdir(), 'parsel-cli-'));
+  run('gallery', '.');
+  write('edit.json', widen);
+  run('propagate', 'chair.glb', 'edit.json', '-o', 'program.json', '--trace', 'trace.json');
+});
+afterAll(() => rmSync(folder, { recursive: true }));
+
+/** A GLB as .gltf with its binary chunk in a file beside it. */
+function unpack(glb: string, gltf: string, bin: string) {
+  const bytes = readFileSync(join(folder, glb));
+  const length = bytes.readUInt32LE(12);
+  const json = JSON.parse(bytes.subarray(20, 20 + length).toString());
+  json.buffers[0].uri = bin;
+  write(gltf, json);
+  writeFileSync(join(folder, bin), bytes.subarray(28 + length));
+}
+
+describe('parsel', () => {
+  it('lists its commands and tells its version', () => {
+    const help = run('--help');
+    for (const command of ['inspect', 'propagate', 'apply', 'check', 'score', 'convert', 'evaluate', 'gallery'])
+      expect(help).toContain(`parsel ${command}`);
+    expect(run('--version')).toMatch(/\d+\.\d+\.\d+/);
+  });
+
+  it('gallery writes the models and their list', () => {
+    const list = readJson('gallery.json') as { file: string; bytes: number }[];
+    const files = readdirSync(folder);
+    for (const { file, bytes } of list) {
+      expect(files).toContain(file);
+      expect(readFileSync(join(folder, file)).length).toBe(bytes);
+    }
+  });
+
+  it('inspect finds the same shape in a GLB and in a .gltf with its file', () => {
+    unpack('chair.glb', 'chair two.gltf', 'chair two.bin');
+    const { parts, relations } = runJson('inspect', 'chair.glb');
+    const unpacked = runJson('inspect', 'chair two.gltf');
+    expect(parts.length).toBeGreaterThan(5);
+    expect({ parts: unpacked.parts, relations: unpacked.relations }).toEqual({ parts, relations });
+    expect(run('inspect', 'chair.glb', '--words')).toContain('seat');
+  });
+
+  it('inspect does not leave the folder of the model for its buffers', () => {
+    unpack('chair.glb', 'escape.gltf', 'chair.bin');
+    const json = readJson('escape.gltf');
+    json.buffers[0].uri = '../../../../etc/passwd';
+    write('escape.gltf', json);
+    const { code, text } = refusal('inspect', 'escape.gltf');
+    expect(code).toBe(1);
+    expect(text).toContain('passwd');
+    expect(text).not.toContain('root');
+  });
+
+  it('propagate works from a model and from the shape that inspect wrote, to the same program', () => {
+    run('inspect', 'chair.glb', '-o', 'shape.json');
+    expect(runJson('propagate', 'shape.json', 'edit.json')).toEqual(readJson('program.json'));
+    expect(readJson('program.json').layers[0].statements.length).toBeGreaterThan(3);
+  });
+
+  it('check accepts the program with its trace, and not another amount', () => {
+    expect(runJson('check', 'chair.glb', 'program.json', '--trace', 'trace.json').findings).toEqual([]);
+    const spoilt = readJson('program.json');
+    spoilt.layers[0].statements.at(-1).amount += ' + x1';
+    write('spoilt.json', spoilt);
+    const { code, text } = refusal('check', 'chair.glb', 'spoilt.json');
+    expect(code).toBe(1);
+    expect(text).toContain('check:');
+  });
+
+  it('convert goes to text and back without loss', () => {
+    run('convert', 'program.json', '-o', 'program.txt');
+    run('convert', 'program.txt', '-o', 'again.json');
+    expect(readJson('again.json')).toEqual(readJson('program.json'));
+    expect(readFileSync(join(folder, 'program.txt'), 'utf8')).toContain('seat');
+  });
+
+  it('apply writes what evaluate says, from either form of the program', () => {
+    for (const program of ['program.json', 'program.txt']) {
+      run('apply', 'chair.glb', program, '--set', 'x1=0.2', '-o', 'wide.glb');
+      const state = runJson('evaluate', 'chair.glb', program, '--set', 'x1=0.2');
+      const width = (corners: number[][]) => Math.max(...corners.map((c) => c[0] as number)) * 2;
+      const [before, after] = ['chair.glb', 'wide.glb'].map((file) => runJson('inspect', file));
+      const seat = (shape: typeof after) => shape.parts.find((p: { id: string }) => p.id === 'seat');
+      expect(width(seat(after).corners) * after.frame.scale).toBeCloseTo(
+        width(state.parts.seat) * before.frame.scale,
+        5,
+      );
+      expect(width(state.parts.seat)).toBeCloseTo(1.2 * width(seat(before).corners), 6);
+    }
+  });
+
+  it('apply at rest writes the file as it was, byte by byte, and can animate', () => {
+    run('apply', 'chair.glb', 'program.json', '--set', 'x1=0', '-o', 'rest.glb');
+    expect(readFileSync(join(folder, 'rest.glb')).equals(readFileSync(join(folder, 'chair.glb')))).toBe(true);
+    run('apply', 'chair.glb', 'program.json', '--animate', 'x1', '-o', 'film.glb');
+    expect(readFileSync(join(folder, 'film.glb')).toString('latin1')).toContain('"animations"');
+  });
+
+  it('score gives a program full marks against itself and fewer against another', () => {
+    const perfect = runJson('score', 'chair.glb', '--truth', 'program.json', '--program', 'program.json');
+    const poor = readJson('program.json');
+    poor.layers[0].statements.length = 1;
+    write('poor.json', poor);
+    const less = runJson('score', 'chair.glb', '--truth', 'program.json', '--program', 'poor.json');
+    expect(perfect).toMatchObject({ programmatic: 1, geometric: 0, structural: 1 });
+    expect(less.programmatic).toBeLessThan(1);
+    expect(less.geometric).toBeGreaterThan(0);
+  });
+
+  it.each([
+    [['nothing'], 2, 'nothing'],
+    [['inspect'], 2, 'inspect'],
+    [['inspect', 'absent.glb'], 1, 'absent.glb'],
+    [['inspect', 'edit.json'], 1, 'edit.json'],
+    [['propagate', 'chair.glb', 'trace.json'], 1, 'trace.json'],
+    [['apply', 'chair.glb', 'program.json', '--set', 'x1=9', '-o', 'never.glb'], 1, 'range'],
+    [['apply', 'chair.glb', 'program.json', '--set', 'y=0', '-o', 'never.glb'], 1, 'y=0'],
+    [['apply', 'chair.glb', 'program.json', '--only', 'wing', '-o', 'never.glb'], 1, 'wing'],
+    [['apply', 'desk.glb', 'program.json', '-o', 'never.glb'], 1, 'seat'],
+    [['score', 'chair.glb', '--truth', 'program.json'], 2, '--program'],
+    [['convert', 'chair.glb'], 1, ''],
+    [['gallery', 'edit.json'], 1, 'edit.json'],
+  ])('refuses %j', (given, code, words) => {
+    const answer = refusal(...given);
+    expect(answer.code).toBe(code);
+    expect(answer.text).toContain(words);
+    expect(answer.output).toBe('');
+    expect(readdirSync(folder)).not.toContain('never.glb');
+  });
+});
