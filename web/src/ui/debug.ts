@@ -1,8 +1,7 @@
 // With `?debug` in its address, the page hands its core and its state to the console (and to the tests) as `parsel`.
 import type { Stage } from '../scene/stage';
-import { core, substitute } from '../session/core';
+import { core } from '../session/core';
 import type { Document } from '../session/document';
-import type { ModelCore } from '../session/model_core';
 import { addProgram, compiled, document, slide } from '../session/session';
 import type { CoreClient } from '../worker/client';
 import { stage } from './view';
@@ -12,8 +11,6 @@ export interface DebugHandle {
   client(): CoreClient;
   /** Whether the core has started. */
   isReady(): boolean;
-  /** Puts another core in its place. */
-  substitute(models: ModelCore): void;
   document(): Document;
   stage(): Stage | null;
   /** Corners of all parts as the sliders stand, part × 24. */
@@ -30,9 +27,6 @@ export function exposeForDebugging(): void {
       return core.value.client;
     },
     isReady: () => core.value.kind === 'ready',
-    substitute(models) {
-      substitute.value = models;
-    },
     document: () => document.value,
     stage: () => stage.value,
     corners: () => (compiled.value.kind === 'ready' ? [...compiled.value.evaluator.corners] : []),
