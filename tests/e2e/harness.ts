@@ -14,9 +14,10 @@ import {
   type Locator,
   type Page,
 } from 'playwright-core';
+import { afterAll, beforeAll } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 
-const dist = fileURLToPath(new URL('../../web/dist', import.meta.url));
+export const dist = fileURLToPath(new URL('../../web/dist', import.meta.url));
 export const outputFolder = fileURLToPath(new URL('../output', import.meta.url));
 
 const types: Record<string, string> = {
@@ -28,10 +29,36 @@ const types: Record<string, string> = {
   '.wasm': 'application/wasm',
   '.json': 'application/json',
   '.glb': 'model/gltf-binary',
+  '.png': 'image/png',
+  '.webmanifest': 'application/manifest+json',
 };
 
-/** Serves web/dist at /some/where/; answers with the page's address. */
-export async function serve(): Promise<{ url: string; server: Server }> {
+/** A server and a browser for all tests of a file. */
+export function useSite(): { readonly url: string; readonly browser: Browser } {
+  let site: { url: string; server: Server; browser: Browser } | undefined;
+  beforeAll(async () => {
+    site = { ...(await serve()), browser: await launch() };
+  });
+  afterAll(async () => {
+    await site?.browser.close();
+    site?.server.close();
+  });
+  const started = () => {
+    if (site === undefined) throw new Error('the site is used before it has started');
+    return site;
+  };
+  return {
+    get url() {
+      return started().url;
+    },
+    get browser() {
+      return started().browser;
+    },
+  };
+}
+
+/** Serves web/dist, or another built page, at /some/where/; answers with the page's address. */
+export async function serve(folder = dist): Promise<{ url: string; server: Server }> {
   if (!existsSync(join(dist, 'index.html'))) throw new Error('web/dist is not built: run ./web/start.sh --build-only');
   const base = '/some/where/';
   const server = createServer(async (request, response) => {
@@ -39,7 +66,7 @@ export async function serve(): Promise<{ url: string; server: Server }> {
     const relative = normalize(path.slice(base.length) || 'index.html');
     if (!path.startsWith(base) || relative.startsWith('..')) return response.writeHead(404).end();
     try {
-      const bytes = await readFile(join(dist, relative));
+      const bytes = await readFile(join(folder, relative));
       response.writeHead(200, { 'Content-Type': types[extname(relative)] ?? 'application/octet-stream' }).end(bytes);
     } catch {
       // A page that was built without a gallery has an empty one.
@@ -79,14 +106,21 @@ export interface WatchedPage {
   complaints: string[];
 }
 
-/** A page in a fresh profile, watched for violations of its policy, errors and unhandled rejections. */
+/**
+ * A page in a fresh profile, watched for violations of its policy, errors and unhandled rejections. Without a service
+ * worker unless the options allow it.
+ */
 export async function openPage(
   browser: Browser,
   url: string,
   options: BrowserContextOptions = {},
   prepare: (context: BrowserContext) => Promise<unknown> = async () => {},
 ): Promise<WatchedPage> {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+  const context = await browser.newContext({
+    viewport: { width: 1440, height: 900 },
+    serviceWorkers: 'block', // it would answer what tests answer for the server
+    ...options,
+  });
   await prepare(context);
   const page = await context.newPage();
   const complaints: string[] = [];

@@ -1,27 +1,17 @@
 // Every way in, and what is not a model: named in a sentence, with the work at hand untouched.
-import type { Server } from 'node:http';
 import { zipSync } from 'fflate';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { type Gltf, stool, stoolGltf, toGlb } from './fixture';
-import { launch, openModel, openPage, pick, serve, withoutGallery } from './harness';
+import { openModel, openPage, pick, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
-let server: Server;
-let url: string;
-let browser: Browser;
+const site = useSite();
+
 let page: Page;
 let complaints: string[];
-beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
 
 const file = (name: string, buffer: Buffer) => ({ name, mimeType: 'application/octet-stream', buffer });
 const parts = () => page.evaluate(() => parsel.document().model?.shape.parts.length ?? 0);
@@ -50,7 +40,7 @@ async function drop(files: Record<string, Buffer>): Promise<void> {
 describe('opening', () => {
   beforeEach(async () => {
     await page?.context().close();
-    ({ page, complaints } = await openPage(browser, `${url}?debug`, {}, withoutGallery));
+    ({ page, complaints } = await openPage(site.browser, `${site.url}?debug`, {}, withoutGallery));
     await page.waitForFunction(() => 'parsel' in globalThis && parsel.isReady());
   });
   const opened = async () => {
@@ -91,13 +81,13 @@ describe('opening', () => {
   });
 
   it('a model of the gallery, with a picture of it', async () => {
-    const context = await browser.newContext();
+    const context = await site.browser.newContext({ serviceWorkers: 'block' });
     await context.route('**/gallery/gallery.json', (route) =>
       route.fulfill({ json: [{ id: 'stool', title: 'A stool', requests: ['Widen it.'] }] }),
     );
     await context.route('**/gallery/stool.glb', (route) => route.fulfill({ body: stool }));
     const first = await context.newPage();
-    await first.goto(`${url}?debug`);
+    await first.goto(`${site.url}?debug`);
     await first.locator('.part').first().waitFor(); // the first visit opens the first model by itself
     await first.locator('.bar .model').click();
     await first.getByRole('img', { includeHidden: true }).first().waitFor({ state: 'attached' });
@@ -120,7 +110,7 @@ describe('opening', () => {
 describe('what cannot be opened', () => {
   beforeAll(async () => {
     await page?.context().close();
-    ({ page, complaints } = await openModel(browser, url, stool));
+    ({ page, complaints } = await openModel(site.browser, site.url, stool));
   });
   const needing = (extension: string) => {
     const gltf = stoolGltf();

@@ -1,32 +1,24 @@
 // Links and session files: what one person sees, the other sees.
 import { readFile } from 'node:fs/promises';
-import type { Server } from 'node:http';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { beforeAll, describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool, stoolGltf, toGlb } from './fixture';
-import { launch, openModel, openPage, outputFolder, pick, serve, type WatchedPage, withoutGallery } from './harness';
+import { openModel, openPage, outputFolder, pick, useSite, type WatchedPage, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
-let server: Server;
-let url: string;
-let browser: Browser;
+const site = useSite();
+
 let page: Page;
 let complaints: string[];
 beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-  ({ page, complaints } = await openModel(browser, url, stool));
+  ({ page, complaints } = await openModel(site.browser, site.url, stool));
   const shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
   await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
   await page.locator('.card').nth(2).waitFor();
   for (const [i, value] of [0.3, -0.25, 5].entries()) await page.getByRole('slider').nth(i).fill(String(value));
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
 });
 
 const corners = (of: Page) => of.evaluate(() => parsel.corners());
@@ -43,7 +35,7 @@ async function link(): Promise<string> {
 }
 
 const openLink = (fragment: string, search = '?debug'): Promise<WatchedPage> =>
-  openPage(browser, `${url}${search}${fragment}`, {}, withoutGallery);
+  openPage(site.browser, `${site.url}${search}${fragment}`, {}, withoutGallery);
 
 describe('a link', () => {
   it('asks a fresh profile for the file by name, checks it, and gives the same corners', async () => {
@@ -117,7 +109,7 @@ describe('files', () => {
   it('a session file restores the work on the model that is open', async () => {
     const path = await download('Session');
     expect(path).toMatch(/stool\.parsel\.json$/);
-    const fresh = await openModel(browser, url, stool);
+    const fresh = await openModel(site.browser, site.url, stool);
     await pick(fresh.page, [{ name: 'a.parsel.json', mimeType: 'application/json', buffer: await readFile(path) }]);
     await fresh.page.locator('.card').nth(2).waitFor();
     expect(await corners(fresh.page)).toEqual(await corners(page));
