@@ -34,6 +34,7 @@ function securityPolicy(): Plugin {
 
 /** Everything is kept at the first visit, gallery and all, so that the page works without a network. See ui/update.ts. */
 const offline = VitePWA({
+  includeManifestIcons: false, // they are among the files below
   injectRegister: null, // update.ts does it: an inline script would violate the policy
   manifest: {
     name: 'ParSEL',

@@ -155,6 +155,16 @@ export async function openModel(
   return watched;
 }
 
+/** A gallery of one model, which the page opens by itself. */
+export const withGalleryOf =
+  (model: Buffer) =>
+  async (context: BrowserContext): Promise<void> => {
+    await context.route('**/gallery/gallery.json', (route) =>
+      route.fulfill({ json: [{ id: 'stool', title: 'A stool', requests: ['Widen it.'] }] }),
+    );
+    await context.route('**/gallery/stool.glb', (route) => route.fulfill({ body: model }));
+  };
+
 /** No gallery, so that the page starts empty. */
 export const withoutGallery = (context: BrowserContext): Promise<unknown> =>
   context.route('**/gallery/gallery.json', (route) => route.fulfill({ json: [] }));
@@ -168,6 +178,18 @@ export async function pick(page: Page, files: { name: string; mimeType: string; 
 
 async function expectEnabled(locator: Locator): Promise<void> {
   await locator.and(locator.page().locator(':enabled')).waitFor({ state: 'attached' });
+}
+
+/** Exports through the menu; answers where the file is. */
+export async function download(page: Page, item: string): Promise<string> {
+  await page.getByRole('button', { name: 'Export' }).click();
+  const [event] = await Promise.all([
+    page.waitForEvent('download'),
+    page.getByRole('menuitem', { name: item }).click(),
+  ]);
+  const path = `${outputFolder}/${event.suggestedFilename()}`;
+  await event.saveAs(path);
+  return path;
 }
 
 /** The canvas once nothing moves any more. */

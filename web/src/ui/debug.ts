@@ -1,10 +1,11 @@
 // With `?debug` in its address, the page hands its core and its state to the console (and to the tests) as `parsel`.
+import type { Evaluator } from '../program/compile';
 import type { Stage } from '../scene/stage';
 import { core } from '../session/core';
 import type { Document } from '../session/document';
-import { addProgram, compiled, document, slide } from '../session/session';
+import { addProgram, document, slide } from '../session/session';
 import type { CoreClient } from '../worker/client';
-import { stage } from './view';
+import { currentEvaluator, stage } from './view';
 
 export interface DebugHandle {
   /** The running core. Throws while it starts. */
@@ -13,6 +14,8 @@ export interface DebugHandle {
   isReady(): boolean;
   document(): Document;
   stage(): Stage | null;
+  /** What evaluates the program of the layers that are on; null when there is none. */
+  evaluator(): Evaluator | null;
   /** Corners of all parts as the sliders stand, part × 24. */
   corners(): number[];
   addProgram: typeof addProgram;
@@ -29,7 +32,8 @@ export function exposeForDebugging(): void {
     isReady: () => core.value.kind === 'ready',
     document: () => document.value,
     stage: () => stage.value,
-    corners: () => (compiled.value.kind === 'ready' ? [...compiled.value.evaluator.corners] : []),
+    evaluator: currentEvaluator,
+    corners: () => [...(currentEvaluator()?.corners ?? [])],
     addProgram,
     slide,
   };
