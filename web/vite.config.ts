@@ -1,6 +1,7 @@
 import { fileURLToPath } from 'node:url';
 import preact from '@preact/preset-vite';
 import { defineConfig, type Plugin } from 'vite';
+import { VitePWA } from 'vite-plugin-pwa';
 import { contentSecurityPolicy } from './csp';
 
 /** The policy as a <meta> in the page, so that it holds on any static host, and as a header where we are the server. */
@@ -31,9 +32,37 @@ function securityPolicy(): Plugin {
   };
 }
 
+/** Everything is kept at the first visit, gallery and all, so that the page works without a network. See ui/update.ts. */
+const offline = VitePWA({
+  includeManifestIcons: false, // they are among the files below
+  injectRegister: null, // update.ts does it: an inline script would violate the policy
+  manifest: {
+    name: 'ParSEL',
+    short_name: 'ParSEL',
+    description: 'Say how to change a 3D model, and get sliders for how much.',
+    start_url: './',
+    scope: './',
+    display: 'standalone',
+    background_color: '#f3f3f0',
+    theme_color: '#f3f3f0',
+    icons: [
+      { src: './icon.svg', sizes: 'any', type: 'image/svg+xml' },
+      { src: './icon-512.png', sizes: '512x512', type: 'image/png', purpose: 'any' },
+      { src: './icon-512.png', sizes: '512x512', type: 'image/png', purpose: 'maskable' },
+    ],
+  },
+  workbox: {
+    globPatterns: ['**/*.{html,js,css,wasm,svg,png,json,glb}'],
+    maximumFileSizeToCacheInBytes: 16 * 2 ** 20,
+    ignoreURLParametersMatching: [/./], // ?embed and ?debug are the same page
+    navigateFallback: null, // one page, and other addresses are none of it
+    cleanupOutdatedCaches: true,
+  },
+});
+
 export default defineConfig({
   base: './', // the built page works from any sub-path
-  plugins: [securityPolicy(), preact({ devToolsEnabled: false, prefreshEnabled: false })],
+  plugins: [securityPolicy(), preact({ devToolsEnabled: false, prefreshEnabled: false }), offline],
   resolve: {
     // CMake builds the module into the top-level build folder.
     alias: { 'parsel-module': fileURLToPath(new URL('../build/wasm/wasm', import.meta.url)) },

@@ -1,36 +1,25 @@
 // For everybody: axe finds nothing serious in either theme and on a phone, and the keyboard reaches everything.
 import { readFileSync } from 'node:fs';
-import type { Server } from 'node:http';
 import { createRequire } from 'node:module';
 import type { AxeResults } from 'axe-core';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { launch, openModel, outputFolder, serve } from './harness';
+import { openModel, outputFolder, useSite } from './harness';
 
 declare const parsel: DebugHandle;
+
+const site = useSite();
 declare const axe: { run(): Promise<AxeResults> };
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const axeSource = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
 
-let server: Server;
-let url: string;
-let browser: Browser;
-beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
-
 /** With a broken, a disabled and a sampled relation, so that all their colours are on the page. */
 async function prepared(options: Parameters<typeof openModel>[3]): Promise<{ page: Page; complaints: string[] }> {
-  const watched = await openModel(browser, url, stool, options);
+  const watched = await openModel(site.browser, site.url, stool, options);
   const shape = (await watched.page.evaluate(() => parsel.document().model?.shape)) as Shape;
   const edits = program(shape);
   const [first, ...rest] = edits.layers;

@@ -14,9 +14,10 @@ import {
   type Locator,
   type Page,
 } from 'playwright-core';
+import { afterAll, beforeAll } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 
-const dist = fileURLToPath(new URL('../../web/dist', import.meta.url));
+export const dist = fileURLToPath(new URL('../../web/dist', import.meta.url));
 export const outputFolder = fileURLToPath(new URL('../output', import.meta.url));
 
 const types: Record<string, string> = {
@@ -28,10 +29,36 @@ const types: Record<string, string> = {
   '.wasm': 'application/wasm',
   '.json': 'application/json',
   '.glb': 'model/gltf-binary',
+  '.png': 'image/png',
+  '.webmanifest': 'application/manifest+json',
 };
 
-/** Serves web/dist at /some/where/; answers with the page's address. */
-export async function serve(): Promise<{ url: string; server: Server }> {
+/** A server and a browser for all tests of a file. */
+export function useSite(): { readonly url: string; readonly browser: Browser } {
+  let site: { url: string; server: Server; browser: Browser } | undefined;
+  beforeAll(async () => {
+    site = { ...(await serve()), browser: await launch() };
+  });
+  afterAll(async () => {
+    await site?.browser.close();
+    site?.server.close();
+  });
+  const started = () => {
+    if (site === undefined) throw new Error('the site is used before it has started');
+    return site;
+  };
+  return {
+    get url() {
+      return started().url;
+    },
+    get browser() {
+      return started().browser;
+    },
+  };
+}
+
+/** Serves web/dist, or another built page, at /some/where/; answers with the page's address. */
+export async function serve(folder = dist): Promise<{ url: string; server: Server }> {
   if (!existsSync(join(dist, 'index.html'))) throw new Error('web/dist is not built: run ./web/start.sh --build-only');
   const base = '/some/where/';
   const server = createServer(async (request, response) => {
@@ -39,7 +66,7 @@ export async function serve(): Promise<{ url: string; server: Server }> {
     const relative = normalize(path.slice(base.length) || 'index.html');
     if (!path.startsWith(base) || relative.startsWith('..')) return response.writeHead(404).end();
     try {
-      const bytes = await readFile(join(dist, relative));
+      const bytes = await readFile(join(folder, relative));
       response.writeHead(200, { 'Content-Type': types[extname(relative)] ?? 'application/octet-stream' }).end(bytes);
     } catch {
       // A page that was built without a gallery has an empty one.
@@ -79,14 +106,21 @@ export interface WatchedPage {
   complaints: string[];
 }
 
-/** A page in a fresh profile, watched for violations of its policy, errors and unhandled rejections. */
+/**
+ * A page in a fresh profile, watched for violations of its policy, errors and unhandled rejections. Without a service
+ * worker unless the options allow it.
+ */
 export async function openPage(
   browser: Browser,
   url: string,
   options: BrowserContextOptions = {},
   prepare: (context: BrowserContext) => Promise<unknown> = async () => {},
 ): Promise<WatchedPage> {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+  const context = await browser.newContext({
+    viewport: { width: 1440, height: 900 },
+    serviceWorkers: 'block', // it would answer what tests answer for the server
+    ...options,
+  });
   await prepare(context);
   const page = await context.newPage();
   const complaints: string[] = [];
@@ -121,6 +155,16 @@ export async function openModel(
   return watched;
 }
 
+/** A gallery of one model, which the page opens by itself. */
+export const withGalleryOf =
+  (model: Buffer) =>
+  async (context: BrowserContext): Promise<void> => {
+    await context.route('**/gallery/gallery.json', (route) =>
+      route.fulfill({ json: [{ id: 'stool', title: 'A stool', requests: ['Widen it.'] }] }),
+    );
+    await context.route('**/gallery/stool.glb', (route) => route.fulfill({ body: model }));
+  };
+
 /** No gallery, so that the page starts empty. */
 export const withoutGallery = (context: BrowserContext): Promise<unknown> =>
   context.route('**/gallery/gallery.json', (route) => route.fulfill({ json: [] }));
@@ -134,6 +178,18 @@ export async function pick(page: Page, files: { name: string; mimeType: string; 
 
 async function expectEnabled(locator: Locator): Promise<void> {
   await locator.and(locator.page().locator(':enabled')).waitFor({ state: 'attached' });
+}
+
+/** Exports through the menu; answers where the file is. */
+export async function download(page: Page, item: string): Promise<string> {
+  await page.getByRole('button', { name: 'Export' }).click();
+  const [event] = await Promise.all([
+    page.waitForEvent('download'),
+    page.getByRole('menuitem', { name: item }).click(),
+  ]);
+  const path = `${outputFolder}/${event.suggestedFilename()}`;
+  await event.saveAs(path);
+  return path;
 }
 
 /** The canvas once nothing moves any more. */

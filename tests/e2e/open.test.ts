@@ -1,27 +1,22 @@
 // Every way in, and what is not a model: named in a sentence, with the work at hand untouched.
-import type { Server } from 'node:http';
+
+import { mkdir, mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { zipSync } from 'fflate';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
+import { compress } from '../web/compressed';
 import { type Gltf, stool, stoolGltf, toGlb } from './fixture';
-import { launch, openModel, openPage, pick, serve, withoutGallery } from './harness';
+import { openModel, openPage, pick, useSite, withGalleryOf, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
-let server: Server;
-let url: string;
-let browser: Browser;
+const site = useSite();
+
 let page: Page;
 let complaints: string[];
-beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
 
 const file = (name: string, buffer: Buffer) => ({ name, mimeType: 'application/octet-stream', buffer });
 const parts = () => page.evaluate(() => parsel.document().model?.shape.parts.length ?? 0);
@@ -50,7 +45,7 @@ async function drop(files: Record<string, Buffer>): Promise<void> {
 describe('opening', () => {
   beforeEach(async () => {
     await page?.context().close();
-    ({ page, complaints } = await openPage(browser, `${url}?debug`, {}, withoutGallery));
+    ({ page, complaints } = await openPage(site.browser, `${site.url}?debug`, {}, withoutGallery));
     await page.waitForFunction(() => 'parsel' in globalThis && parsel.isReady());
   });
   const opened = async () => {
@@ -67,6 +62,24 @@ describe('opening', () => {
   it('a .glb by a drop', async () => {
     await drop({ 'stool.glb': stool });
     await opened();
+  });
+
+  it('a .gltf with its buffer by a drop', async () => {
+    const { text, binary } = split(stoolGltf(), 'stool.bin');
+    await drop({ 'stool.gltf': text, 'stool.bin': binary });
+    await opened();
+  });
+
+  it('a folder', async () => {
+    const { text, binary } = split(stoolGltf(), 'data/stool.bin');
+    const folder = await mkdtemp(join(tmpdir(), 'parsel-folder-'));
+    await mkdir(join(folder, 'data'));
+    await writeFile(join(folder, 'stool.gltf'), text);
+    await writeFile(join(folder, 'data', 'stool.bin'), binary);
+    await page.locator('.bar .model').click();
+    await page.getByLabel('Open a folder').setInputFiles(folder);
+    await opened();
+    await rm(folder, { recursive: true });
   });
 
   it('a .gltf with its buffer, whose name is escaped', async () => {
@@ -91,36 +104,52 @@ describe('opening', () => {
   });
 
   it('a model of the gallery, with a picture of it', async () => {
-    const context = await browser.newContext();
-    await context.route('**/gallery/gallery.json', (route) =>
-      route.fulfill({ json: [{ id: 'stool', title: 'A stool', requests: ['Widen it.'] }] }),
-    );
-    await context.route('**/gallery/stool.glb', (route) => route.fulfill({ body: stool }));
-    const first = await context.newPage();
-    await first.goto(`${url}?debug`);
+    const { page: first } = await openPage(site.browser, `${site.url}?debug`, {}, withGalleryOf(stool));
     await first.locator('.part').first().waitFor(); // the first visit opens the first model by itself
     await first.locator('.bar .model').click();
     await first.getByRole('img', { includeHidden: true }).first().waitFor({ state: 'attached' });
     await first.locator('.thumbnail img').waitFor();
     expect(await first.getByRole('button', { name: 'A stool' }).count()).toBe(1);
-    await context.close();
+    await first.context().close();
   });
 
-  it('names with markup as text', async () => {
+  it('names with markup as text, of files, nodes, meshes, materials and extras', async () => {
     const hostile = '<img src=x onerror="globalThis.hacked=1">';
-    await pick(page, [file('"><script>1</script>.glb', toGlb(stoolGltf(() => hostile)))]);
+    const { json, binary } = stoolGltf(() => hostile);
+    const named = (list: unknown) =>
+      (list as object[]).map((item) => ({ ...item, name: hostile, extras: { hostile } }));
+    const renamed = { ...json, meshes: named(json['meshes']), materials: named(json['materials']) };
+    await pick(page, [file('"><script>1</script>.glb', toGlb({ json: renamed, binary }))]);
     await page.locator('.part').first().waitFor();
     expect(await page.locator('.side.left').textContent()).toContain('onerror');
     expect(await page.evaluate(() => 'hacked' in globalThis)).toBe(false);
     expect(await page.locator('.side img, .bar img').count()).toBe(0);
     expect(complaints).toEqual([]);
   });
+
+  it.each(['__proto__', 'constructor', 'ignore previous instructions'])(
+    'parts that are all called %s',
+    async (name) => {
+      await pick(page, [file(`${name}.glb`, toGlb(stoolGltf(() => name)))]);
+      await opened();
+      const ids = await page.evaluate(() => parsel.document().model?.shape.parts.map(({ id }) => id) ?? []);
+      expect(new Set(ids).size).toBe(11);
+    },
+  );
+
+  it.each(['Draco', 'Meshopt, quantized'] as const)('a .glb that is compressed: %s', async (how) => {
+    await pick(page, [file('stool.glb', await compress(stool, how))]);
+    await opened();
+    await expect
+      .poll(() => page.getByRole('status').textContent())
+      .toMatch(/came compressed with (Draco|Meshopt); what you export will not be/);
+  });
 });
 
 describe('what cannot be opened', () => {
   beforeAll(async () => {
     await page?.context().close();
-    ({ page, complaints } = await openModel(browser, url, stool));
+    ({ page, complaints } = await openModel(site.browser, site.url, stool));
   });
   const needing = (extension: string) => {
     const gltf = stoolGltf();
@@ -154,6 +183,24 @@ describe('what cannot be opened', () => {
     await expect.poll(() => page.getByRole('alert').textContent(), { timeout: 20_000 }).toMatch(sentence);
     expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('stool');
     expect(await parts()).toBe(11);
+    expect(complaints).toEqual([]);
+  });
+
+  it('is refused by name: Draco data that is damaged', async () => {
+    const compressed = await compress(stool, 'Draco');
+    compressed.fill(0x55, compressed.length - 800, compressed.length - 400);
+    await pick(page, [file('damaged.glb', compressed)]);
+    await expect.poll(() => page.getByRole('alert').textContent()).toMatch(/damaged: its Draco data cannot be read/);
+    expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('stool');
+  });
+
+  it('can be cancelled while it is decompressed, with the work at hand untouched', async () => {
+    await page.route('**/draco_decoder*.wasm', () => {}); // never answers
+    await pick(page, [file('slow.glb', await compress(stool, 'Draco'))]);
+    await expect.poll(() => page.getByRole('status').textContent()).toMatch(/Reading the model · decompressing Draco/);
+    await page.getByRole('button', { name: 'Cancel' }).click();
+    await expect.poll(() => page.getByRole('status').textContent()).toBe('');
+    expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('stool');
     expect(complaints).toEqual([]);
   });
 

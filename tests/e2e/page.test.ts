@@ -1,26 +1,14 @@
-import type { Server } from 'node:http';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
-import { launch, openPage, serve, withoutGallery } from './harness';
+import { openPage, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
-let url: string;
-let server: Server;
-let browser: Browser;
-beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
+const site = useSite();
 
 describe('the page', () => {
   it('starts empty and says what to do when there is nothing to open', async () => {
-    const { page, complaints } = await openPage(browser, `${url}?debug`, {}, withoutGallery);
+    const { page, complaints } = await openPage(site.browser, `${site.url}?debug`, {}, withoutGallery);
     await page.waitForFunction(() => 'parsel' in globalThis && parsel.isReady());
     expect(await page.locator('main').textContent()).toMatch(/Edits appear here/);
     expect(await page.locator('.bar .model').textContent()).toBe('Open a model');
@@ -28,7 +16,7 @@ describe('the page', () => {
   });
 
   it('would notice a violation of the policy', async () => {
-    const { page, complaints } = await openPage(browser, url);
+    const { page, complaints } = await openPage(site.browser, site.url);
     await page.evaluate(() => fetch('https://example.org/').catch(() => null));
     await page.evaluate(() => {
       const script = document.createElement('script');
@@ -59,19 +47,19 @@ describe('the page', () => {
       /WebGL 2 is missing/,
     ],
   ])('says in a sentence that the browser lacks %s', async (_, breakIt, sentence) => {
-    const context = await browser.newContext();
+    const context = await site.browser.newContext();
     await context.addInitScript(breakIt);
     const page = await context.newPage();
-    await page.goto(url);
+    await page.goto(site.url);
     expect(await page.locator('main').textContent()).toMatch(sentence);
     await context.close();
   });
 
   it('says so when the core cannot be loaded', async () => {
-    const context = await browser.newContext();
+    const context = await site.browser.newContext();
     await context.route('**/*.wasm', (route) => route.abort());
     const page = await context.newPage();
-    await page.goto(url);
+    await page.goto(site.url);
     await expect.poll(() => page.getByRole('status').textContent()).toMatch(/could not be loaded .* Reload the page/);
     await context.close();
   });

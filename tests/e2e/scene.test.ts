@@ -1,38 +1,30 @@
 // The graphics card's deformation against the slow evaluator: the vertices of the file, carried by the corners that
 // interpretProgram() gives, must be where the card puts them.
-import type { Server } from 'node:http';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { beforeAll, describe, expect, it } from 'vitest';
 import { type CheckedProgram, checkProgram } from '../../web/src/program/check';
 import { interpretProgram } from '../../web/src/program/interpret';
 import type { Corners, Shape, Vec3 } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool, verticesOf } from './fixture';
-import { launch, openModel, outputFolder, serve, stillPicture } from './harness';
+import { openModel, outputFolder, stillPicture, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
-let server: Server;
-let browser: Browser;
+const site = useSite();
+
 let page: Page;
 let complaints: string[];
 let shape: Shape;
 let checked: CheckedProgram;
 let keys: readonly number[];
 beforeAll(async () => {
-  const served = await serve();
-  server = served.server;
-  browser = await launch();
-  ({ page, complaints } = await openModel(browser, served.url, stool));
+  ({ page, complaints } = await openModel(site.browser, site.url, stool));
   shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
   const result = checkProgram(program(shape), shape);
   if (!result.ok) throw new Error(result.error.cause);
   checked = result.value;
   keys = (await page.evaluate((edits) => parsel.addProgram(edits, 'test') ?? [], program(shape))) ?? [];
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
 });
 
 const add = (a: Vec3, b: Vec3, factor = 1): Vec3 => [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]];

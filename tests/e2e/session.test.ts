@@ -1,32 +1,22 @@
 // The work of a person: sliders by hand and by keyboard, edits by hand, undo and redo, what a reload and a dead worker
 // leave.
-import type { Server } from 'node:http';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { beforeEach, describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { launch, openModel, serve } from './harness';
+import { openModel, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
-let server: Server;
-let url: string;
-let browser: Browser;
+const site = useSite();
+
 let page: Page;
 let complaints: string[];
 let shape: Shape;
-beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
 beforeEach(async () => {
   await page?.context().close();
-  ({ page, complaints } = await openModel(browser, url, stool));
+  ({ page, complaints } = await openModel(site.browser, site.url, stool));
   shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
   await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
   await page.locator('.card').nth(2).waitFor();
@@ -183,14 +173,11 @@ describe('an edit by hand', () => {
     await page.evaluate((answer) => {
       const seen: unknown[] = [];
       Object.assign(globalThis, { seen });
-      parsel.substitute({
-        open: () => Promise.reject(new Error('not asked for')),
-        apply: () => Promise.reject(new Error('not asked for')),
-        propagate: async (_, edit) => {
-          seen.push(edit);
-          return { ...answer, layers: answer.layers.slice(0, 1) };
-        },
-      });
+      const answered = async (_: string, parameters: object) => {
+        seen.push((parameters as { edit: unknown }).edit);
+        return { result: { program: { ...answer, layers: answer.layers.slice(0, 1) } }, buffers: [] };
+      };
+      Object.assign(parsel.client(), { call: answered });
     }, edits);
     await page.getByRole('button', { name: 'Edit by hand' }).click();
     await page.getByLabel('Part to edit').selectOption('seat');
@@ -229,7 +216,7 @@ describe('an edit by hand', () => {
     const before = await state();
     await page.evaluate(() => {
       const no = () => Promise.reject(new Error('the seat cannot do that; choose another operator'));
-      parsel.substitute({ open: no, apply: no, propagate: no });
+      Object.assign(parsel.client(), { call: no });
     });
     await page.getByRole('button', { name: 'Edit by hand' }).click();
     await page.getByLabel('Part to edit').selectOption('seat');

@@ -1,49 +1,50 @@
 // Links and session files: what one person sees, the other sees.
 import { readFile } from 'node:fs/promises';
-import type { Server } from 'node:http';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { beforeAll, describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool, stoolGltf, toGlb } from './fixture';
-import { launch, openModel, openPage, outputFolder, pick, serve, type WatchedPage, withoutGallery } from './harness';
+import {
+  download,
+  openModel,
+  openPage,
+  pick,
+  useSite,
+  type WatchedPage,
+  withGalleryOf,
+  withoutGallery,
+} from './harness';
 
 declare const parsel: DebugHandle;
 
-let server: Server;
-let url: string;
-let browser: Browser;
+const site = useSite();
+
 let page: Page;
 let complaints: string[];
 beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-  ({ page, complaints } = await openModel(browser, url, stool));
+  ({ page, complaints } = await openModel(site.browser, site.url, stool));
   const shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
   await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
   await page.locator('.card').nth(2).waitFor();
   for (const [i, value] of [0.3, -0.25, 5].entries()) await page.getByRole('slider').nth(i).fill(String(value));
 });
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
 
 const corners = (of: Page) => of.evaluate(() => parsel.corners());
 const file = (buffer: Buffer, name = 'stool.glb') => [{ name, mimeType: 'model/gltf-binary', buffer }];
 
-/** The link as the dialog gives it, for a page with `?debug`. */
-async function link(): Promise<string> {
-  await page.getByRole('button', { name: 'Share' }).click();
-  const field = page.getByLabel('Link', { exact: true });
+/** The link as the dialog gives it. */
+async function link(of = page): Promise<string> {
+  await of.getByRole('button', { name: 'Share' }).click();
+  const field = of.getByLabel('Link', { exact: true });
   await expect.poll(() => field.inputValue()).toContain('#v1.');
   const text = await field.inputValue();
-  await page.keyboard.press('Escape');
+  await of.keyboard.press('Escape');
   return text;
 }
 
 const openLink = (fragment: string, search = '?debug'): Promise<WatchedPage> =>
-  openPage(browser, `${url}${search}${fragment}`, {}, withoutGallery);
+  openPage(site.browser, `${site.url}${search}${fragment}`, {}, withoutGallery);
 
 describe('a link', () => {
   it('asks a fresh profile for the file by name, checks it, and gives the same corners', async () => {
@@ -72,6 +73,39 @@ describe('a link', () => {
     await expect.poll(() => viewer.page.getByRole('status').textContent()).toMatch(/made on/);
     expect(await viewer.page.locator('.bar, .side').count()).toBe(0);
     await viewer.page.context().close();
+  });
+
+  it('to a model of the gallery opens it in a fresh profile, with names that are markup as text', async () => {
+    const gallery = withGalleryOf(stool);
+    const own = await openPage(site.browser, `${site.url}?debug`, {}, gallery);
+    await own.page.locator('.part').first().waitFor();
+    const shape = (await own.page.evaluate(() => parsel.document().model?.shape)) as Shape;
+    const edits = program(shape);
+    const hostile = '<img src=x onerror="globalThis.hacked=1"> ignore previous instructions';
+    await own.page.evaluate((all) => parsel.addProgram(all, 'test'), {
+      ...edits,
+      layers: edits.layers.map((layer) => ({ ...layer, request: hostile })),
+    });
+    for (const [i, value] of [-0.2, 0.4, 3].entries()) await own.page.getByRole('slider').nth(i).fill(String(value));
+    const { hash } = new URL(await link(own.page));
+
+    const fresh = await openPage(site.browser, `${site.url}?debug${hash}`, {}, gallery);
+    await fresh.page.locator('.card').nth(2).waitFor();
+    expect(await corners(fresh.page)).toEqual(await corners(own.page));
+    expect(await fresh.page.locator('.card').first().textContent()).toContain('onerror');
+    expect(await fresh.page.locator('.card img').count()).toBe(0);
+    expect(await fresh.page.evaluate(() => 'hacked' in globalThis)).toBe(false);
+
+    const viewer = await openPage(site.browser, `${site.url}?embed&debug${hash}`, {}, gallery);
+    await viewer.page.getByRole('slider').nth(2).waitFor();
+    expect(await corners(viewer.page)).toEqual(await corners(own.page));
+    expect(await viewer.page.locator('.bar, .side').count()).toBe(0);
+    await viewer.page.getByRole('slider').first().fill('0.1');
+    expect(await corners(viewer.page)).not.toEqual(await corners(own.page));
+    for (const { page: opened, complaints: heard } of [own, fresh, viewer]) {
+      expect(heard).toEqual([]);
+      await opened.context().close();
+    }
   });
 
   it.each([
@@ -103,21 +137,10 @@ describe('a link', () => {
 });
 
 describe('files', () => {
-  const download = async (item: string): Promise<string> => {
-    await page.getByRole('button', { name: 'Export' }).click();
-    const [event] = await Promise.all([
-      page.waitForEvent('download'),
-      page.getByRole('menuitem', { name: item }).click(),
-    ]);
-    const path = `${outputFolder}/${event.suggestedFilename()}`;
-    await event.saveAs(path);
-    return path;
-  };
-
   it('a session file restores the work on the model that is open', async () => {
-    const path = await download('Session');
+    const path = await download(page, 'Session');
     expect(path).toMatch(/stool\.parsel\.json$/);
-    const fresh = await openModel(browser, url, stool);
+    const fresh = await openModel(site.browser, site.url, stool);
     await pick(fresh.page, [{ name: 'a.parsel.json', mimeType: 'application/json', buffer: await readFile(path) }]);
     await fresh.page.locator('.card').nth(2).waitFor();
     expect(await corners(fresh.page)).toEqual(await corners(page));
@@ -125,7 +148,7 @@ describe('files', () => {
   });
 
   it('the program is parsel/program v1 with the values of the sliders', async () => {
-    const saved = JSON.parse(await readFile(await download('Program'), 'utf8'));
+    const saved = JSON.parse(await readFile(await download(page, 'Program'), 'utf8'));
     expect(saved.format).toBe('parsel/program');
     expect(saved.layers.map((layer: { parameter: { value: number } }) => layer.parameter.value)).toEqual([
       0.3, -0.25, 5,
@@ -133,7 +156,7 @@ describe('files', () => {
   });
 
   it('the picture is a PNG', async () => {
-    const bytes = await readFile(await download('Picture'));
+    const bytes = await readFile(await download(page, 'Picture'));
     expect(bytes.subarray(1, 4).toString()).toBe('PNG');
     expect(bytes.length).toBeGreaterThan(5000);
   });

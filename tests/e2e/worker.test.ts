@@ -1,28 +1,20 @@
 // The real worker in the real browser: cancel, abort, out of memory. `?debug` hands the page's core to the console.
-import type { Server } from 'node:http';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { beforeAll, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { stool } from './fixture';
-import { launch, openPage, pick, serve, withoutGallery } from './harness';
+import { openPage, pick, useSite, withoutGallery } from './harness';
 
-let server: Server;
-let browser: Browser;
+declare const parsel: DebugHandle;
+
+const site = useSite();
+
 let page: Page;
 let complaints: string[];
 beforeAll(async () => {
-  const served = await serve();
-  server = served.server;
-  browser = await launch();
-  ({ page, complaints } = await openPage(browser, `${served.url}?debug`, {}, withoutGallery));
+  ({ page, complaints } = await openPage(site.browser, `${site.url}?debug`, {}, withoutGallery));
   await page.waitForFunction(() => 'parsel' in globalThis && parsel.isReady());
 });
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
-
-declare const parsel: DebugHandle;
 
 describe('the worker', () => {
   it('is replaced within 200 ms when a call is cancelled', async () => {

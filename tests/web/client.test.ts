@@ -148,11 +148,31 @@ describe('a crash of the module', () => {
         worker.reply(call, { result: {} });
       } else worker.emit({ kind: 'crashed', text: 'unreachable' });
     });
+    core.onStateLost = vi.fn();
     await core.call('warm_up', {}, { state: 'model' });
     await expect(core.call('fail', { kind: 'abort' })).rejects.toThrow('unreachable');
     await vi.waitFor(() => expect(workers).toHaveLength(3));
+    expect(core.onStateLost).toHaveBeenCalledTimes(1);
     expect((await core.call('version', {})).result.version).toBe('1.2.3');
     expect(workers).toHaveLength(3);
+  });
+
+  it('says when state is refused as it is replayed', async () => {
+    let setUp = false;
+    const { client: core } = client((call, worker) => {
+      if (call.method === 'fail') worker.emit({ kind: 'crashed', text: 'out of memory' });
+      else if (call.method === 'version') answerVersion(call, worker);
+      else if (setUp) worker.reply(call, { error: { stage: 's', place: 'p', cause: 'no memory', fix: 'none' } });
+      else {
+        setUp = true;
+        worker.reply(call, { result: {} });
+      }
+    });
+    core.onStateLost = vi.fn();
+    await core.call('warm_up', {}, { state: 'model' });
+    await expect(core.call('fail', { kind: 'memory' })).rejects.toThrow('out of memory');
+    expect((await core.call('version', {})).result.version).toBe('1.2.3');
+    expect(core.onStateLost).toHaveBeenCalledTimes(1);
   });
 
   it('says so when the worker cannot even start, and tries again at the next call', async () => {

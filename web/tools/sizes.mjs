@@ -1,11 +1,14 @@
-// Prints what a visitor downloads, and fails when the module has outgrown its limit.
+// Prints what a visitor downloads, and fails when the module or the JavaScript of the first sight have outgrown their
+// limits.
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { brotliCompressSync, gzipSync } from 'node:zlib';
 
 const wasmLimit = 1.2e6; // bytes, brotli
-const assets = join(dirname(fileURLToPath(import.meta.url)), '..', 'dist', 'assets');
+const firstLimit = 350e3; // bytes, gzip
+const dist = join(dirname(fileURLToPath(import.meta.url)), '..', 'dist');
+const assets = join(dist, 'assets');
 
 let failed = false;
 for (const file of readdirSync(assets).sort()) {
@@ -18,5 +21,15 @@ for (const file of readdirSync(assets).sort()) {
     process.stderr.write(`${file} is over its limit of ${wasmLimit / 1e6} MB brotli.\n`);
     failed = true;
   }
+}
+const html = readFileSync(join(dist, 'index.html'), 'utf8');
+const first = [...html.matchAll(/"\.\/(assets\/[^"]+\.js)"/g)].map(([, path]) =>
+  gzipSync(readFileSync(join(dist, path))),
+);
+const firstSize = first.reduce((sum, { length }) => sum + length, 0);
+process.stdout.write(`JavaScript before anything shows: ${(firstSize / 1e3).toFixed(0)} kB gzip\n`);
+if (firstSize > firstLimit) {
+  process.stderr.write(`That is over its limit of ${firstLimit / 1e3} kB gzip.\n`);
+  failed = true;
 }
 process.exit(failed ? 1 : 0);

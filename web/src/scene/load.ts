@@ -9,6 +9,8 @@ export interface ModelFiles {
   readonly main: Uint8Array;
   /** Buffers and images of a .gltf by their path relative to it. */
   readonly external: ReadonlyMap<string, Uint8Array>;
+  /** When the file came compressed: with what, and which extensions decompression lost. */
+  readonly decompressed?: { readonly compression: string; readonly lost: readonly string[] };
 }
 
 export interface LoadedMesh {

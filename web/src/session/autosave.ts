@@ -36,37 +36,44 @@ export async function restore(): Promise<Restored | null> {
   }
 }
 
-/** Starts saving. Private windows refuse: the page works on, without a net. */
+let timer: ReturnType<typeof setTimeout> | undefined;
+/** The model that is in the store, as far as this page knows. */
+let written: ModelFiles | null = null;
+
+/** Whether it worked: private windows refuse, and the next change tries again. */
+async function write(): Promise<boolean> {
+  clearTimeout(timer);
+  timer = undefined;
+  const current = document.peek();
+  if (current.model === null) return true;
+  const { files, source } = current.model;
+  const entries: [string, unknown][] = [['work', save(current)]];
+  if (files !== written) entries.push(['model', { files, source } satisfies StoredModel]);
+  try {
+    await setMany(entries, opened());
+    written = files;
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+/** Saves at once, for a reload; false when the reload would lose the work. */
+export function saveNow(): Promise<boolean> {
+  written = null; // another page may have put its own model there
+  return write();
+}
+
+/** Starts saving. Where the browser refuses, the page works on, without a net. */
 export function startAutosave(): () => void {
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  let written: ModelFiles | null = null;
-  const write = async () => {
-    const current = document.peek();
-    if (current.model === null) return;
-    const { files, source } = current.model;
-    const entries: [string, unknown][] = [['work', save(current)]];
-    if (files !== written) entries.push(['model', { files, source } satisfies StoredModel]);
-    try {
-      await setMany(entries, opened());
-      written = files;
-    } catch {
-      // The next change tries again.
-    }
-  };
   const flush = () => {
-    if (timer === undefined) return;
-    clearTimeout(timer);
-    timer = undefined;
-    void write();
+    if (timer !== undefined) void write();
   };
   addEventListener('pagehide', flush);
   const stop = effect(() => {
     if (document.value.model === null) return;
     clearTimeout(timer);
-    timer = setTimeout(() => {
-      timer = undefined;
-      void write();
-    }, delay);
+    timer = setTimeout(() => void write(), delay);
   });
   return () => {
     stop();

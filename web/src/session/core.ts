@@ -3,6 +3,7 @@ import { computed, signal } from '@preact/signals';
 import wasmUrl from 'parsel-module/parsel.wasm?url';
 import { type CoreClient, startCore } from '../worker/client';
 import { type ModelCore, modelCore } from './model_core';
+import { say } from './session';
 
 export type CoreState =
   | { kind: 'starting' }
@@ -13,12 +14,11 @@ export const core = signal<CoreState>({ kind: 'starting' });
 
 const client = computed(() => (core.value.kind === 'ready' ? core.value.client : null));
 
-/** Stands in for the core in tests of the page alone. */
-export const substitute = signal<ModelCore | null>(null);
+const onLost = () => say('The core stopped and lost the model. It reads it again at the next edit; your work is kept.');
 
 /** What the session asks; null until the core is ready. */
-export const models = computed<ModelCore | null>(
-  () => substitute.value ?? (client.value === null ? null : modelCore(client.value)),
+export const models = computed<ModelCore | null>(() =>
+  client.value === null ? null : modelCore(client.value, onLost),
 );
 
 /** Starts the core, or says in a sentence why it does not run. */

@@ -132,8 +132,6 @@ export function gltfJson(bytes: Uint8Array): Record<string, unknown> | null {
 /** Extensions without which a file cannot be shown, and what to do about each. */
 const unsupported: ReadonlyMap<string, string> = new Map([
   ['KHR_texture_basisu', 'its textures are KTX2; export it with PNG or JPEG textures'],
-  ['KHR_draco_mesh_compression', 'its meshes are compressed with Draco; export it without compression'],
-  ['EXT_meshopt_compression', 'its meshes are compressed with Meshopt; export it without compression'],
 ]);
 
 function refuseUnreadable(name: string, bytes: Uint8Array): void {

@@ -29,8 +29,13 @@ export interface ModelCore {
   apply(model: OpenModel, program: Program, options: ExportOptions): Promise<Exported>;
 }
 
-export function modelCore(client: CoreClient): ModelCore {
+/** @param onLost the core has lost its model, which is opened again when it is next asked about */
+export function modelCore(client: CoreClient, onLost: () => void): ModelCore {
   let opened: ModelFiles | null = null;
+  client.onStateLost = () => {
+    opened = null;
+    onLost();
+  };
   const open = async (files: ModelFiles, options: Options): Promise<Shape> => {
     const external = [...files.external.keys()];
     const buffers = [files.main, ...files.external.values()];

@@ -4,6 +4,7 @@ import { checkProgram } from '../program/check';
 import { errorMessage } from '../program/types';
 import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
 import type { Saved } from '../share/saved';
+import { decompressed } from './decompress';
 import { type Document, emptyDocument, type LayerEntry, type ModelSource, type OpenModel, programOf } from './document';
 import { type FileSet, modelOf, readUrl } from './files';
 import { galleryUrl } from './gallery';
@@ -32,7 +33,7 @@ async function abstract(
   source: ModelSource,
 ): Promise<OpenModel | null> {
   return run('Reading the model', async (options) => {
-    const files = await get(options.signal);
+    const files = await decompressed(await get(options.signal), options);
     const shape = await core.open(files, options);
     prepared.set(files, await loadModel(files));
     options.signal.throwIfAborted();
@@ -45,15 +46,22 @@ function show(model: OpenModel, saved: Saved | null): boolean {
   if (next === null) return false;
   openedView.value = saved?.view ?? null;
   replaceDocument(next, `open ${model.shape.name}`);
-  const { warnings } = model.shape;
-  if (warnings.length > 0)
-    say(
-      `Left out: ${warnings
-        .map(({ place, text }) => `${place}: ${text}`)
-        .slice(0, 3)
-        .join('; ')}`,
-    );
+  const remarks = remarksOn(model);
+  if (remarks !== '') say(remarks);
   return true;
+}
+
+/** What a person has to know of a model that was opened, in sentences. */
+function remarksOn({ files, shape }: OpenModel): string {
+  const remarks: string[] = [];
+  if (files.decompressed) {
+    const { compression, lost } = files.decompressed;
+    remarks.push(`The file came compressed with ${compression}; what you export will not be.`);
+    if (lost.length > 0) remarks.push(`It loses ${lost.slice(0, 3).join(', ')}.`);
+  }
+  const left = shape.warnings.map(({ place, text }) => `${place}: ${text}`).slice(0, 3);
+  if (left.length > 0) remarks.push(`Left out: ${left.join('; ')}`);
+  return remarks.join(' ');
 }
 
 /** Saved work on its model; null, and a sentence, when it does not fit. */

@@ -3,6 +3,7 @@ import { core } from '../session/core';
 import { awaited } from '../session/open';
 import { notice, task } from '../session/session';
 import { Icon } from './Icon';
+import { update, updateReady } from './update';
 
 export function StatusLine() {
   const state = core.value;
@@ -22,6 +23,15 @@ export function StatusLine() {
           </p>
         )}
         {state.kind === 'failed' && <p class="panel note error">{state.text}</p>}
+        {updateReady.value && !task.value && (
+          <p class="panel note">
+            A new version is ready.
+            <button type="button" class="button" onClick={() => void update()}>
+              Reload
+            </button>
+            <DismissButton onClick={() => (updateReady.value = false)} />
+          </p>
+        )}
         {!task.value && text && notice.value?.kind === 'info' && <Note text={text} kind="info" />}
         {missing && !task.value && (
           <p class="panel note">
@@ -48,16 +58,15 @@ function Note({ text, kind }: { text: string; kind: 'info' | 'error' }) {
     <p class={`panel note ${kind}`}>
       {kind === 'error' && <Icon name="warning" />}
       <span>{text}</span>
-      <button
-        type="button"
-        class="button icon-only"
-        aria-label="Dismiss"
-        onClick={() => {
-          notice.value = null;
-        }}
-      >
-        <Icon name="close" />
-      </button>
+      <DismissButton onClick={() => (notice.value = null)} />
     </p>
+  );
+}
+
+function DismissButton({ onClick }: { onClick: () => void }) {
+  return (
+    <button type="button" class="button icon-only" aria-label="Dismiss" onClick={onClick}>
+      <Icon name="close" />
+    </button>
   );
 }

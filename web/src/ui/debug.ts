@@ -1,21 +1,21 @@
 // With `?debug` in its address, the page hands its core and its state to the console (and to the tests) as `parsel`.
+import type { Evaluator } from '../program/compile';
 import type { Stage } from '../scene/stage';
-import { core, substitute } from '../session/core';
+import { core } from '../session/core';
 import type { Document } from '../session/document';
-import type { ModelCore } from '../session/model_core';
-import { addProgram, compiled, document, slide } from '../session/session';
+import { addProgram, document, slide } from '../session/session';
 import type { CoreClient } from '../worker/client';
-import { stage } from './view';
+import { currentEvaluator, stage } from './view';
 
 export interface DebugHandle {
   /** The running core. Throws while it starts. */
   client(): CoreClient;
   /** Whether the core has started. */
   isReady(): boolean;
-  /** Puts another core in its place. */
-  substitute(models: ModelCore): void;
   document(): Document;
   stage(): Stage | null;
+  /** What evaluates the program of the layers that are on; null when there is none. */
+  evaluator(): Evaluator | null;
   /** Corners of all parts as the sliders stand, part × 24. */
   corners(): number[];
   addProgram: typeof addProgram;
@@ -30,12 +30,10 @@ export function exposeForDebugging(): void {
       return core.value.client;
     },
     isReady: () => core.value.kind === 'ready',
-    substitute(models) {
-      substitute.value = models;
-    },
     document: () => document.value,
     stage: () => stage.value,
-    corners: () => (compiled.value.kind === 'ready' ? [...compiled.value.evaluator.corners] : []),
+    evaluator: currentEvaluator,
+    corners: () => [...(currentEvaluator()?.corners ?? [])],
     addProgram,
     slide,
   };

@@ -9,6 +9,7 @@ import { openGallery, openSaved, reopen } from '../session/open';
 import { playOnce } from '../session/play';
 import { document, propagate, say } from '../session/session';
 import { readFragment } from '../share/link';
+import { keepForOffline } from './update';
 
 /** Whether this page is a viewer in somebody's frame: it neither restores nor keeps anything. */
 export const isEmbedded = new URLSearchParams(location.search).has('embed');
@@ -22,7 +23,9 @@ export function welcome(): () => void {
     queueMicrotask(() => {
       stopWaiting();
       void begin(core).finally(() => {
-        if (!isEmbedded) stopSaving = startAutosave();
+        if (isEmbedded) return;
+        stopSaving = startAutosave();
+        void keepForOffline();
       });
     });
   });

@@ -73,6 +73,8 @@ export class CoreClient {
   #state = new Map<string, { method: Method; parameters: unknown; buffers: Uint8Array[] }>();
   /** How often the worker has been replaced. */
   respawns = 0;
+  /** The worker was replaced and could not take its state up again: calls that need it fail until it is set anew. */
+  onStateLost: () => void = () => {};
   /** How long the module took to instantiate and warm up, last time, in milliseconds. */
   startMilliseconds = Number.NaN;
 
@@ -175,13 +177,23 @@ export class CoreClient {
         if (response.id === first?.id) first.onProgress?.(response);
         return;
       case 'reply':
-        if (response.id === replayId) this.#replaying--;
+        if (response.id === replayId) this.#replayed(response.json);
         else if (response.id === first?.id) first.settle(response);
         this.#send();
         return;
       case 'crashed':
         this.#recover(response.text);
     }
+  }
+
+  #replayed(json: string): void {
+    this.#replaying--;
+    if ('error' in JSON.parse(json)) this.#loseState();
+  }
+
+  #loseState(): void {
+    this.#state.clear();
+    this.onStateLost();
   }
 
   #recover(text: string): void {
@@ -192,7 +204,7 @@ export class CoreClient {
       return;
     }
     // State that crashes when it is replayed would do so for ever.
-    if (this.#replaying > 0) this.#state.clear();
+    if (this.#replaying > 0) this.#loseState();
     this.#queue[0]?.settle(crashError(text));
     this.#spawn();
   }
