@@ -188,7 +188,7 @@ describe('an edit by hand', () => {
         apply: () => Promise.reject(new Error('not asked for')),
         propagate: async (_, edit) => {
           seen.push(edit);
-          return { ...answer, layers: answer.layers.slice(0, 1) };
+          return { program: { ...answer, layers: answer.layers.slice(0, 1) } };
         },
       });
     }, edits);

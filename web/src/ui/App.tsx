@@ -5,9 +5,11 @@ import { useEffect } from 'preact/hooks';
 import type { Insets } from '../scene/camera';
 import { readDropped } from '../session/files';
 import { document } from '../session/session';
+import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
 import { Dimensions } from './Dimensions';
 import { EditsPanel } from './EditsPanel';
+import { Handles } from './Handles';
 import { HelpDialog } from './HelpDialog';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
@@ -51,6 +53,7 @@ export function App() {
   return (
     <div class={`app ${isPhone.value ? 'phone' : ''}`}>
       <StageView insets={insets} pickKind={pickKind} />
+      <Handles />
       <TopBar />
       <main>
         {isPhone.value ? (
@@ -69,7 +72,10 @@ export function App() {
         )}
         <div class={`centre ${editsOpen.value ? '' : 'low'}`}>
           <StatusLine />
-          <Dimensions />
+          <div class="row">
+            <Dimensions />
+            <ApartSlider />
+          </div>
         </div>
       </main>
       {dialog.value === 'open' && <OpenDialog />}

@@ -4,7 +4,7 @@ import { dialog, exportModel, exportProgram, exportScreenshot, saveSession } fro
 import { Icon } from './Icon';
 import { Menu, type MenuItem } from './Menu';
 import { isDark, toggleTheme } from './theme';
-import { showColours } from './view';
+import { apart, showColours, toggleApart } from './view';
 
 function exportItems(): MenuItem[] {
   const { model, layers } = document.value;
@@ -80,6 +80,7 @@ export function TopBar() {
             label: showColours.value ? 'Own colours' : 'Colour the parts',
             act: () => (showColours.value = !showColours.value),
           },
+          { label: apart.value > 0 ? 'Parts together' : 'Parts apart', hint: 'E', act: toggleApart },
           { label: isDark.value ? 'Light' : 'Dark', act: toggleTheme },
         ]}
       >

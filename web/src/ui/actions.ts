@@ -5,7 +5,7 @@ import { programOf } from '../session/document';
 import { type FileSet, sessionText } from '../session/files';
 import type { ExportOptions } from '../session/model_core';
 import { openFiles, openSaved } from '../session/open';
-import { document, run, say, selection } from '../session/session';
+import { activeLayers, document, run, say, selection } from '../session/session';
 import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
 import { stage } from './view';
@@ -52,8 +52,8 @@ export function saveSession(): void {
 }
 
 export function exportProgram(): void {
-  const { model, layers } = document.peek();
-  if (model) download(fileName('.program.json'), jsonBlob(programOf(model.shape, layers)));
+  const { model } = document.peek();
+  if (model) download(fileName('.program.json'), jsonBlob(programOf(model.shape, activeLayers(document.peek()))));
 }
 
 export async function exportScreenshot(): Promise<void> {
@@ -63,9 +63,9 @@ export async function exportScreenshot(): Promise<void> {
 
 export async function exportModel(kind: 'all' | 'selected' | 'animated'): Promise<void> {
   const core = models.peek();
-  const { model, layers } = document.peek();
+  const { model } = document.peek();
   if (core === null || model === null) return;
-  const program = programOf(model.shape, layers);
+  const program = programOf(model.shape, activeLayers(document.peek()));
   const options: ExportOptions = {
     ...(kind === 'animated' ? { animate: program.layers.at(-1)?.parameter.name ?? '' } : {}),
     ...(kind === 'selected' ? { only: [selection.peek()?.part ?? ''] } : {}),
