@@ -4,7 +4,7 @@
 import { signal } from '@preact/signals';
 import type { Axis, LocalTriple, Shape, ShapePart, Statement, Vec3 } from '../program/types';
 import { withRequest } from './document';
-import { type Measure, measureOf } from './measure';
+import { type Measure, measureOf, pointIn } from './measure';
 import type { ModelCore } from './model_core';
 import {
   activeLayers,
@@ -59,20 +59,10 @@ const axes: readonly Vec3[] = [
 const dot = (a: Vec3, b: Vec3) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const isFace = (feature: LocalTriple) => feature.filter((sign) => sign !== 0).length === 1;
 
-/** A point of a hexahedron among flat corners (part × 24). */
-export function featurePoint(corners: ArrayLike<number>, part: number, [u, v, w]: LocalTriple): Vec3 {
-  const point: [number, number, number] = [0, 0, 0];
-  for (let k = 0; k < 8; k++) {
-    const weight = ((1 + (k & 1 ? u : -u)) * (1 + (k & 2 ? v : -v)) * (1 + (k & 4 ? w : -w))) / 8;
-    for (let i = 0; i < 3; i++) point[i] = (point[i] ?? 0) + weight * (corners[part * 24 + 3 * k + i] ?? 0);
-  }
-  return point;
-}
-
 /** From the opposite face to this one, of length 1. */
 export function faceNormal(corners: ArrayLike<number>, part: number, feature: LocalTriple): Vec3 {
-  const to = featurePoint(corners, part, feature);
-  const from = featurePoint(corners, part, opposite(feature));
+  const to = pointIn(corners, part, feature);
+  const from = pointIn(corners, part, opposite(feature));
   const d = to.map((value, i) => value - (from[i] ?? 0)) as unknown as Vec3;
   const length = Math.hypot(...d) || 1;
   return d.map((value) => value / length) as unknown as Vec3;
@@ -83,7 +73,7 @@ const opposite = (feature: LocalTriple) => feature.map((sign) => 0 - sign) as un
 
 /** Whether a mirror symmetry of the shape goes through the middle of a part, across one of its axes. */
 function isMirrored({ relations }: Shape, { corners, axes: own }: ShapePart, axis: Axis): boolean {
-  const centre = featurePoint(corners.flat(), 0, [0, 0, 0]);
+  const centre = pointIn(corners.flat(), 0, [0, 0, 0]);
   return relations.some((relation) => {
     if (relation.kind !== 'reflection' || Math.abs(dot(relation.normal, own[axis])) < 0.98) return false;
     const off = centre.map((value, i) => value - (relation.origin[i] ?? 0)) as unknown as Vec3;
@@ -164,11 +154,11 @@ function follow(key: number, part: number, feature: LocalTriple, direction: Vec3
   const start = sliderValue(entry);
   const measure = measureOf(shape, seed);
   const before = measure?.read(state.evaluator) ?? 0;
-  const from = featurePoint(state.evaluator.corners, part, feature);
+  const from = pointIn(state.evaluator.corners, part, feature);
   const step = (max - min) / 1000;
   const there = start + step <= max ? start + step : start - step;
   slide(key, there);
-  const to = featurePoint(state.evaluator.corners, part, feature);
+  const to = pointIn(state.evaluator.corners, part, feature);
   slide(key, start);
   const moved = to.map((value, i) => value - (from[i] ?? 0)) as unknown as Vec3;
   return { key, start, min, max, gain: dot(moved, direction) / (there - start), measure, before };

@@ -15,11 +15,13 @@ import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
+import { ProgramDialog } from './ProgramDialog';
 import { ShareDialog } from './ShareDialog';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
 import { listenForShortcuts } from './shortcuts';
 import { TopBar } from './TopBar';
+import { Tour, TourOffer } from './Tour';
 import { isEmbedded, welcome } from './welcome';
 import type { FeatureKind } from './words';
 
@@ -71,6 +73,7 @@ export function App() {
           </>
         )}
         <div class={`centre ${editsOpen.value ? '' : 'low'}`}>
+          <TourOffer />
           <StatusLine />
           <div class="row">
             <Dimensions />
@@ -78,9 +81,16 @@ export function App() {
           </div>
         </div>
       </main>
+      {!isPhone.value && (
+        <footer class="foot quiet">
+          After <a href="https://arxiv.org/abs/2405.20319">ParSEL</a>, Ganeshan et al. 2024
+        </footer>
+      )}
+      <Tour />
       {dialog.value === 'open' && <OpenDialog />}
       {dialog.value === 'share' && <ShareDialog />}
       {dialog.value === 'help' && <HelpDialog />}
+      {dialog.value === 'text' && <ProgramDialog />}
       {dropping.value && (
         <div class="drop" aria-hidden="true">
           <p>Drop a model to open it</p>

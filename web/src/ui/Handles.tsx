@@ -6,9 +6,9 @@ import type { Axis, LocalTriple } from '../program/types';
 import { axisOfDrag } from '../scene/drag';
 import { models } from '../session/core';
 import { nameOf } from '../session/document';
-import { formatMeasure } from '../session/measure';
+import { formatMeasure, pointIn } from '../session/measure';
 import { playing } from '../session/play';
-import { beginPull, cancelPull, endPull, faceNormal, featurePoint, pull, pullBy, pullTo } from '../session/pull';
+import { beginPull, cancelPull, endPull, faceNormal, pull, pullBy, pullTo } from '../session/pull';
 import { compiled, document, entryOf, select, selection, sliderValue, step } from '../session/session';
 import { Icon } from './Icon';
 import { apart, shown, stage } from './view';
@@ -45,7 +45,7 @@ export function Handles() {
     if (!on || on.corners.length === 0) return;
     for (const button of root.current?.children ?? []) {
       const feature = (button as HTMLElement).dataset.feature?.split(',').map(Number) as unknown as LocalTriple;
-      const point = featurePoint(on.corners, part, feature);
+      const point = pointIn(on.corners, part, feature);
       const { x, y } = on.projectMean(point);
       const isFace = featureKind(feature) === 'face';
       const isBehind = isFace && !on.isFacing(point, faceNormal(on.corners, part, feature));
@@ -71,9 +71,7 @@ export function Handles() {
     stage
       .peek()
       ?.guide(
-        held && corners && at >= 0
-          ? { from: featurePoint(corners, at, held.grab.feature), axis: held.direction }
-          : null,
+        held && corners && at >= 0 ? { from: pointIn(corners, at, held.grab.feature), axis: held.direction } : null,
       );
   });
   // A selection that goes, or a part that is hidden, ends what was begun on it.
@@ -126,7 +124,7 @@ function Handle({ part, id, feature, isSelected }: HandleProps) {
   const start = (event: PointerEvent, from: { x: number; y: number }) => {
     const on = stage.peek();
     if (!on) return;
-    origin.current = featurePoint(on.corners, part, feature);
+    origin.current = pointIn(on.corners, part, feature);
     const moved = { x: event.clientX - from.x, y: event.clientY - from.y };
     const axis = axisOfDrag((points) => on.projectMean(points), origin.current, moved);
     void begin(axis, event.altKey).then((ready) => {

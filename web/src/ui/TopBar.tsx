@@ -3,6 +3,7 @@ import { document, redo, redoLabel, selection, undo, undoLabel } from '../sessio
 import { dialog, exportModel, exportProgram, exportScreenshot, saveSession } from './actions';
 import { Icon } from './Icon';
 import { Menu, type MenuItem } from './Menu';
+import { startTour } from './Tour';
 import { isDark, toggleTheme } from './theme';
 import { apart, showColours, toggleApart } from './view';
 
@@ -76,6 +77,7 @@ export function TopBar() {
         class="button icon-only"
         items={[
           { label: 'Keyboard and help', hint: '?', act: () => (dialog.value = 'help') },
+          { label: 'Tour', act: startTour },
           {
             label: showColours.value ? 'Own colours' : 'Colour the parts',
             act: () => (showColours.value = !showColours.value),

@@ -1,5 +1,5 @@
 // What buttons, keys and drops have in common: opening files, exporting, sharing.
-import { signal } from '@preact/signals';
+import { type ReadonlySignal, signal } from '@preact/signals';
 import { models } from '../session/core';
 import { programOf } from '../session/document';
 import { type FileSet, sessionText } from '../session/files';
@@ -10,8 +10,16 @@ import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
 import { stage } from './view';
 
-export type DialogName = 'open' | 'share' | 'help';
+export type DialogName = 'open' | 'share' | 'help' | 'text';
 export const dialog = signal<DialogName | null>(null);
+/** Key of the layer that the text dialog is about; null for text from elsewhere. */
+const textKey = signal<number | null>(null);
+export const textOf: ReadonlySignal<number | null> = textKey;
+
+export function showText(key: number | null): void {
+  textKey.value = key;
+  dialog.value = 'text';
+}
 
 /** Opens what was dropped or picked: a model, or saved work. */
 export async function openAny(reading: Promise<FileSet>): Promise<boolean> {
