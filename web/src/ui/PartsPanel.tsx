@@ -221,7 +221,6 @@ function Why({ id }: { id: string }) {
       <h3>Why it moves, or stays</h3>
       <ul class="whys">
         {layers.map(({ layer, text, search }, i) => (
-          // biome-ignore lint/suspicious/noArrayIndexKey: layers may have equal names
           <li key={i}>
             <p class="why-layer">{layer}</p>
             {text.map((line) => (

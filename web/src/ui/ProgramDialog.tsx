@@ -91,11 +91,9 @@ export function ProgramDialog() {
       <p id="program-error" class="program-state" role="status">
         {wrong.value && <span class="error">{wrong.value}</span>}
         {error && (
-          <>
-            <button type="button" class="line error" onClick={() => goTo(error)}>
-              <Icon name="warning" /> Line {error.line}, column {error.column}: {error.cause}; {error.fix}.
-            </button>
-          </>
+          <button type="button" class="line error" onClick={() => goTo(error)}>
+            <Icon name="warning" /> Line {error.line}, column {error.column}: {error.cause}; {error.fix}.
+          </button>
         )}
         {tooMany && <span class="error">There should be one layer here. Add others by “Add from text”.</span>}
         {layers.length > 0 && !tooMany && <span class="quiet">{countWords(layers)}, all of it fits this model.</span>}

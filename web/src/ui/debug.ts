@@ -3,7 +3,7 @@ import type { Stage } from '../scene/stage';
 import { core, substitute } from '../session/core';
 import type { Document } from '../session/document';
 import type { ModelCore } from '../session/model_core';
-import { addProgram, compiled, document, slide } from '../session/session';
+import { addProgram, compiled, document, select, slide } from '../session/session';
 import type { CoreClient } from '../worker/client';
 import { stage } from './view';
 
@@ -19,6 +19,7 @@ export interface DebugHandle {
   /** Corners of all parts as the sliders stand, part × 24. */
   corners(): number[];
   addProgram: typeof addProgram;
+  select: typeof select;
   slide: typeof slide;
 }
 
@@ -37,6 +38,7 @@ export function exposeForDebugging(): void {
     stage: () => stage.value,
     corners: () => (compiled.value.kind === 'ready' ? [...compiled.value.evaluator.corners] : []),
     addProgram,
+    select,
     slide,
   };
   Object.assign(globalThis, { parsel: handle });
