@@ -77,7 +77,7 @@ Result<Output> solve(const Input& input) {
   return Output{{{"solutions", solutions(*equation, *unknown)}}, {}};
 }
 
-/// buffers = the file, then the external buffers that `external` names, in its order.
+/// buffers = the file, then the external buffers that `external` names, in its order. labels: see abstract_shape().
 Result<Output> open(const Input& input) {
   const Result<std::string> name = text_parameter(input, "name");
   if (!name.ok()) return name.error();
@@ -90,7 +90,14 @@ Result<Output> open(const Input& input) {
     if (!names[i].is_string()) return wrong_parameter("external", "a list of names");
     external[names[i].get<std::string>()] = input.buffers[i + 1];
   }
-  Result<Abstraction> abstraction = abstract_shape(input.buffers[0], *name, external);
+  Labels labels;
+  const json given = input.parameters.value("labels", json::object());
+  if (!given.is_object()) return wrong_parameter("labels", "labels by part");
+  for (const auto& [key, label] : given.items()) {
+    if (!label.is_string()) return wrong_parameter("labels", "labels by part");
+    labels[key] = label.get<std::string>();
+  }
+  Result<Abstraction> abstraction = abstract_shape(input.buffers[0], *name, external, labels);
   if (!abstraction.ok()) return abstraction.error();  // the open model stays
   model = OpenModel{std::move(abstraction->shape), input.buffers[0], std::move(external)};
   return Output{{{"shape", to_json(model->shape)}}, {}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "core/base/sha256.h"
@@ -213,9 +214,27 @@ class Builder {
   std::map<char, int> count_;
 };
 
+Status relabel(PartData<PartMesh>& meshes, const Labels& labels) {
+  std::set<std::string, std::less<>> unused;
+  for (const auto& [key, label] : labels) unused.insert(key);
+  for (PartMesh& mesh : meshes) {
+    const std::string node = "node:" + std::to_string(mesh.node);
+    for (const std::string& key : {node, node + "/" + std::to_string(mesh.primitive)}) {
+      const auto found = labels.find(key);
+      if (found == labels.end()) continue;
+      mesh.label = clean_label(found->second);
+      unused.erase(key);
+    }
+  }
+  if (unused.empty()) return success();
+  return Error{"shape/label", printable(*unused.begin()), "a label is given for a part that the file does not have",
+               "name parts as node:<index> or node:<index>/<primitive>"};
+}
+
 }  // namespace
 
-Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name, const ExternalBuffers& buffers) {
+Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name, const ExternalBuffers& buffers,
+                                   const Labels& labels) {
   Result<ImportedModel> imported = import_gltf(bytes, buffers);
   if (!imported.ok()) return imported.error();
   Abstraction result;
@@ -224,6 +243,7 @@ Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name
   result.shape.frame = imported->frame;
   result.shape.warnings = std::move(imported->warnings);
   result.meshes = std::move(imported->meshes);
+  if (Status status = relabel(result.meshes, labels); !status.ok()) return status.error();
 
   PartData<Hexahedron> boxes;
   PartData<std::string> keys;

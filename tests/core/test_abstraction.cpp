@@ -78,6 +78,28 @@ TEST_CASE("the same bytes give the same shape") {
   CHECK(to_json(fixture::abstraction(bytes).shape) == to_json(fixture::abstraction(bytes).shape));
 }
 
+TEST_CASE("labels that a person gives take the place of the file's, and symmetry follows them") {
+  const auto leg = [](double x) { return box({x, 0, 0}, {0.1, 1, 0.1}); };
+  const std::string bytes =
+      fixture::model({{"top", box({0, 0.55, 0}, {1.4, 0.1, 0.4})}, {"leg", leg(-0.5)}, {"mesh.017", leg(0.5)}});
+  const Shape before = fixture::abstraction(bytes).shape;
+  CHECK(fixture::count(before, RelationKind::reflection) == 0);
+
+  const auto labelled = [&](const Labels& labels) { return abstract_shape(bytes, "test", {}, labels); };
+  const auto given = labelled({{"node:2", "leg.004"}});
+  REQUIRE(given.ok());
+  CHECK(validate(given->shape).ok());
+  CHECK(fixture::count(given->shape, RelationKind::reflection) == 1);
+  CHECK(given->shape.find_part("leg_left"));
+  CHECK(given->shape.find_part("leg_right"));
+  CHECK(given->shape.sha256 == before.sha256);
+  CHECK(to_json(labelled({{"node:2/0", "leg"}, {"node:2", "arm"}})->shape) == to_json(given->shape));
+
+  const auto refused = labelled({{"node:7", "leg"}});
+  REQUIRE(!refused.ok());
+  CHECK(refused.error().place == "node:7");
+}
+
 TEST_CASE("degenerate parts take part: panels, wires, parts inside others, duplicates, a single part") {
   const auto one = fixture::shape({{"block", box({0, 0, 0}, {1, 1, 1})}});
   CHECK(one.parts.size() == 1);

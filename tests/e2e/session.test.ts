@@ -175,7 +175,8 @@ describe('an edit by hand', () => {
       Object.assign(globalThis, { seen });
       const answered = async (_: string, parameters: object) => {
         seen.push((parameters as { edit: unknown }).edit);
-        return { result: { program: { ...answer, layers: answer.layers.slice(0, 1) } }, buffers: [] };
+        const result = { program: { ...answer, layers: answer.layers.slice(0, 1) }, trace: {} };
+        return { result, buffers: [] };
       };
       Object.assign(parsel.client(), { call: answered });
     }, edits);

@@ -6,8 +6,8 @@
 // Σₖ Nₖ(u,v,w)·Hₖ with Nₖ = Π(1 ± ·)/2. On a box these trilinear weights are the harmonic coordinates of Joshi et al.
 // 2007: each is multilinear, hence harmonic, and has the right values on the boundary.
 import * as three from 'three';
-import type { Evaluator } from '../program/compile';
 import type { Corners, Shape, Vec3 } from '../program/types';
+import type { State } from './explode';
 
 export const texelsPerRow = 9;
 const tintTexel = 8;
@@ -53,22 +53,22 @@ export class CageTexture {
   }
 
   /**
-   * Takes the corners of an evaluator over. Allocates nothing unless a group has outgrown its rows; answers whether that
+   * Takes the corners of a state over. Allocates nothing unless a group has outgrown its rows; answers whether that
    * was so, because the rows of instances are others then.
    */
-  write(evaluator: Evaluator): boolean {
+  write({ corners, groups }: State): boolean {
     let moved = false;
     for (const group of this.#groups) {
-      const count = evaluator.groups[group.relation]?.count ?? 0;
+      const count = groups[group.relation]?.count ?? 0;
       if (count > group.capacity) {
         group.capacity = 2 * count;
         moved = true;
       }
     }
     if (moved) this.#reallocate();
-    this.#writeRows(0, this.#partCount, evaluator.corners);
+    this.#writeRows(0, this.#partCount, corners);
     for (const { relation, first } of this.#groups) {
-      const group = evaluator.groups[relation];
+      const group = groups[relation];
       if (group) this.#writeRows(first, group.count, group.instances);
     }
     this.uniform.value.needsUpdate = true;

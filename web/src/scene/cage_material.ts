@@ -73,7 +73,7 @@ export type CageUniform = { value: three.Texture };
 /** Patches in place. The material must not be used for a mesh without cage afterwards. */
 export function followCage(material: three.Material, uniform: CageUniform, tinted: boolean): void {
   material.onBeforeCompile = (shader) => {
-    shader.uniforms['cageTexture'] = uniform;
+    shader.uniforms.cageTexture = uniform;
     const varying = tinted ? 'varying vec4 vCageTint;\n' : '';
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', `#include <common>\n${cageFunctions}${varying}`)

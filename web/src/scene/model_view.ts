@@ -1,10 +1,10 @@
 // A model in the scene: every part is one instanced draw of its own mesh, whose vertices follow the cage. When the count
 // of a group changes, one member's mesh is drawn once an instance and the other members rest.
 import * as three from 'three';
-import type { Evaluator } from '../program/compile';
 import { isGroup, type Shape } from '../program/types';
 import { CageTexture, localFrame } from './cage';
 import { depthMaterial, followCage } from './cage_material';
+import type { State } from './explode';
 import type { LoadedMesh, LoadedModel } from './load';
 
 /** Display colour, 0 … 1, and how much of it. */
@@ -83,11 +83,11 @@ export class ModelView {
     }
   }
 
-  /** Shows the state of an evaluator: uploads corners, and changes draws only where a count has changed. */
-  update(evaluator: Evaluator): void {
-    const moved = this.cage.write(evaluator);
+  /** Shows a state: uploads corners, and changes draws only where a count has changed. */
+  update(state: State): void {
+    const moved = this.cage.write(state);
     for (const group of this.#groups) {
-      const view = evaluator.groups[group.relation];
+      const view = state.groups[group.relation];
       const source = view?.source ?? -1;
       const count = source < 0 ? 0 : (view?.count ?? 0);
       if (!moved && source === group.source && count === group.count) continue;

@@ -29,6 +29,7 @@ export class Overlays {
   readonly #box: three.LineSegments;
   readonly #feature: three.Mesh;
   readonly #featureLine: three.Line;
+  readonly #guide: three.Line;
   readonly #points: three.Points;
   readonly #planes: three.Mesh[] = [];
   readonly #planeMaterial: three.MeshBasicMaterial;
@@ -44,6 +45,8 @@ export class Overlays {
       new three.MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.35, side: three.DoubleSide }),
     );
     this.#featureLine = new three.Line(buffer(2), new three.LineBasicMaterial({ depthTest: false }));
+    this.#guide = new three.Line(buffer(2), new three.LineBasicMaterial({ transparent: true, opacity: 0.55 }));
+    this.#guide.visible = false;
     this.#points = new three.Points(
       buffer(maxPoints),
       new three.PointsMaterial({ size: 9, sizeAttenuation: false, depthTest: false, transparent: true }),
@@ -54,7 +57,7 @@ export class Overlays {
       side: three.DoubleSide,
       depthWrite: false,
     });
-    for (const object of [this.#box, this.#feature, this.#featureLine, this.#points]) {
+    for (const object of [this.#box, this.#feature, this.#featureLine, this.#guide, this.#points]) {
       object.frustumCulled = false;
       object.renderOrder = 10;
       this.root.add(object);
@@ -73,7 +76,7 @@ export class Overlays {
   }
 
   setColours({ accent, quiet }: OverlayColours): void {
-    for (const object of [this.#feature, this.#featureLine, this.#points, this.#box]) {
+    for (const object of [this.#feature, this.#featureLine, this.#guide, this.#points, this.#box]) {
       (object.material as three.LineBasicMaterial).color.set(accent);
     }
     this.#planeMaterial.color.set(quiet);
@@ -88,6 +91,18 @@ export class Overlays {
       if (relation?.kind === 'reflection') this.#placePlane(planes++, relation.origin, relation.normal);
     }
     this.update(corners);
+  }
+
+  /** A line through a point, as long as anybody pulls; null takes it away. */
+  guide(line: { readonly from: Vec3; readonly axis: Vec3 } | null): void {
+    this.#guide.visible = line !== null;
+    if (line === null) return;
+    const positions = this.#guide.geometry.getAttribute('position') as three.BufferAttribute;
+    for (const end of [0, 1]) {
+      const point = scratch.set(...line.axis).multiplyScalar(end === 0 ? -3 : 3);
+      positions.setXYZ(end, point.x + line.from[0], point.y + line.from[1], point.z + line.from[2]);
+    }
+    positions.needsUpdate = true;
   }
 
   /** Follows the state; allocates nothing. */

@@ -56,7 +56,7 @@ export class Picker {
     this.#camera.setViewOffset(width, height, (shift?.offsetX ?? 0) + x, (shift?.offsetY ?? 0) + y, 1, 1);
     this.#camera.updateMatrixWorld();
 
-    this.#material.uniforms['cageTexture'] = view.cage.uniform;
+    this.#material.uniforms.cageTexture = view.cage.uniform;
     view.root.overrideMaterial = this.#material;
     renderer.setRenderTarget(this.#target); // its clear colour is the renderer's: transparent black, so row 0
     renderer.render(view.root, this.#camera);

@@ -1,9 +1,10 @@
 // The scene around the model: light, ground, camera, overlays; drawn when something has changed, and only then.
 import * as three from 'three';
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js';
-import type { Evaluator } from '../program/compile';
-import type { Shape } from '../program/types';
+import type { Shape, Vec3 } from '../program/types';
 import { CameraRig, type Insets } from './camera';
+import { distanceAlong } from './drag';
+import { explode, type State } from './explode';
 import type { LoadedModel } from './load';
 import { ModelView } from './model_view';
 import { Overlays } from './overlays';
@@ -28,10 +29,16 @@ export class Stage {
   #frame = 0;
   #hasMetal = false;
   #actor: Actor | null = null;
+  #state: State | null = null;
+  /** As drawn: other than #state in the exploded view. */
+  #drawn: State | null = null;
+  #apart = 0;
   #accent = '#2361cf';
   #quiet = '#5a5f66';
   /** Reports the loss of the graphics context, and that it is back. */
   onContext: (lost: boolean) => void = () => {};
+  /** Called after every frame, for what is laid over the canvas. */
+  onDraw: () => void = () => {};
 
   /** @param canvas fills its parent; the stage follows its size. */
   constructor(
@@ -99,6 +106,7 @@ export class Stage {
     view.dispose();
     overlays.dispose();
     this.#actor = null;
+    this.#state = this.#drawn = null;
     this.invalidate();
   }
 
@@ -113,12 +121,15 @@ export class Stage {
   }
 
   /** One step of a slider: corners are uploaded, nothing else. */
-  update(evaluator: Evaluator): void {
+  update(state: State): void {
     if (this.#actor === null) return;
     const { view, overlays } = this.#actor;
-    view.update(evaluator);
-    overlays.update(evaluator.corners);
-    const bounds = shapeBounds(view.shape, evaluator);
+    this.#state = state;
+    const drawn = this.#apart === 0 ? state : explode(view.shape, state, this.#apart);
+    this.#drawn = drawn;
+    view.update(drawn);
+    overlays.update(drawn.corners);
+    const bounds = shapeBounds(view.shape, drawn);
     this.#ground.position.y = bounds.min.y;
     // In steps, so that the shadow's grain stays while a slider moves a little.
     const reach = 2 ** (Math.ceil(2 * Math.log2(bounds.getBoundingSphere(sphere).radius * 1.2)) / 2);
@@ -130,10 +141,22 @@ export class Stage {
     this.invalidate();
   }
 
+  /** How far the parts stand apart, 0 … 1: see explode(). */
+  setApart(amount: number): void {
+    this.#apart = amount;
+    if (this.#state) this.update(this.#state);
+  }
+
+  /** Corners of all parts as they are drawn, part × 24; empty before anything is. */
+  get corners(): Float64Array {
+    return this.#drawn?.corners ?? nothing;
+  }
+
   /** Brings the model, or one part, into view. */
-  fit(evaluator: Evaluator, part: number | null, animate = true): void {
-    if (this.#actor === null) return;
-    const box = part === null ? shapeBounds(this.#actor.view.shape, evaluator) : partBounds(evaluator.corners, part);
+  fit(part: number | null, animate = true): void {
+    if (this.#actor === null || this.#drawn === null) return;
+    const { shape } = this.#actor.view;
+    const box = part === null ? shapeBounds(shape, this.#drawn) : partBounds(this.#drawn.corners, part);
     const bounds = box.getBoundingSphere(new three.Sphere());
     if (part !== null) bounds.radius = Math.max(bounds.radius * 2, 0.2);
     this.rig.fit(bounds, animate);
@@ -154,6 +177,29 @@ export class Stage {
     const { left, top, width, height } = this.canvas.getBoundingClientRect();
     const { x, y } = mean.divideScalar(count).project(this.rig.camera);
     return { x: left + ((x + 1) / 2) * width, y: top + ((1 - y) / 2) * height };
+  }
+
+  /** How far along an axis through a point of the shape the pointer is, in the normalised frame. */
+  distanceAlong(from: Vec3, axis: Vec3, x: number, y: number): number {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect();
+    const at = new three.Vector2((2 * (x - left)) / width - 1, 1 - (2 * (y - top)) / height);
+    return distanceAlong(this.rig.camera, at, new three.Vector3(...from), new three.Vector3(...axis));
+  }
+
+  /** Whether the camera sees the front of a plane through a point. */
+  isFacing(point: Vec3, normal: Vec3): boolean {
+    return (
+      corner
+        .set(...point)
+        .sub(this.rig.camera.position)
+        .dot(new three.Vector3(...normal)) < 0
+    );
+  }
+
+  /** Shows the line along which something is pulled. */
+  guide(line: { readonly from: Vec3; readonly axis: Vec3 } | null): void {
+    this.#actor?.overlays.guide(line);
+    this.invalidate();
   }
 
   setInsets(insets: Insets): void {
@@ -209,6 +255,7 @@ export class Stage {
     this.#clock.update(time);
     const moving = this.rig.update(Math.min(this.#clock.getDelta(), 0.1));
     this.#renderer.render(this.#scene, this.rig.camera);
+    this.onDraw();
     if (moving) this.invalidate();
   };
 
@@ -233,9 +280,10 @@ export class Stage {
 const sphere = new three.Sphere();
 const corner = new three.Vector3();
 const shapeBox = new three.Box3();
+const nothing = new Float64Array(0);
 
 /** Of all real parts and all instances. The box is reused by the next call. */
-export function shapeBounds(shape: Shape, { corners, groups }: Evaluator): three.Box3 {
+export function shapeBounds(shape: Shape, { corners, groups }: State): three.Box3 {
   shapeBox.makeEmpty();
   for (let part = 0; part < shape.parts.length; part++) {
     if (!shape.parts[part]?.virtual) expand(shapeBox, corners, part);

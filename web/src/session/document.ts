@@ -1,6 +1,7 @@
 // What a person works on, as one immutable value: the model, the layers with their values, what is hidden and renamed.
 import type { Layer, LocalTriple, Program, Shape, Statement } from '../program/types';
 import type { ModelFiles } from '../scene/load';
+import type { Trace } from './trace';
 
 /** Where a model came from: what a link can name. */
 export type ModelSource =
@@ -12,7 +13,15 @@ export interface OpenModel {
   readonly files: ModelFiles;
   readonly source: ModelSource;
   readonly shape: Shape;
+  /** Labels given here in place of the file's own, by partKey(). */
+  readonly labels: Labels;
 }
+
+export type Labels = ReadonlyMap<string, string>;
+export const noLabels: Labels = new Map();
+
+/** What names a real part whatever its label and id are. */
+export const partKey = ({ node, primitive }: { node: number; primitive: number }) => `node:${node}/${primitive}`;
 
 /** `parsel/edit` v1: what is propagated. Amounts of the seed are in x. */
 export interface EditInput {
@@ -30,6 +39,8 @@ export interface LayerEntry {
   readonly layer: Layer;
   readonly enabled: boolean;
   readonly value: number;
+  /** How propagation found it. Lasts as long as the page: neither links nor autosave keep it. */
+  readonly trace?: Trace;
 }
 
 export interface Document {
@@ -45,16 +56,22 @@ export const emptyDocument: Document = { model: null, layers: [], hidden: new Se
 
 export const wholePart: LocalTriple = [0, 0, 0];
 
-/** The program of the layers that are switched on, with their present values. */
+export function emptyProgram({ name, sha256 }: Shape): Program {
+  return { format: 'parsel/program', version: 1, shape: { name, sha256 }, layers: [] };
+}
+
+/** The program of some layers, with their present values. */
 export function programOf(shape: Shape, layers: readonly LayerEntry[]): Program {
   return {
-    format: 'parsel/program',
-    version: 1,
-    shape: { name: shape.name, sha256: shape.sha256 },
-    layers: layers
-      .filter(({ enabled }) => enabled)
-      .map(({ layer, value }) => ({ ...layer, parameter: { ...layer.parameter, value } })),
+    ...emptyProgram(shape),
+    layers: layers.map(({ layer, value }) => ({ ...layer, parameter: { ...layer.parameter, value } })),
   };
+}
+
+/** A program whose layers say what was asked for. */
+export function withRequest(program: Program, request: string): Program {
+  if (request === '') return program;
+  return { ...program, layers: program.layers.map((layer) => ({ ...layer, request })) };
 }
 
 /**

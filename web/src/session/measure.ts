@@ -1,6 +1,6 @@
 // Lengths for people: the size of the whole and of parts, and what a layer's slider changes, in the model's metres.
 import type { Evaluator } from '../program/compile';
-import { type Axis, isGeometric, isGroup, type Shape, type Statement } from '../program/types';
+import { type Axis, isGeometric, isGroup, type Shape, type Statement, type Vec3 } from '../program/types';
 
 /** Width (x), height (y) and depth (z) in metres. */
 export type Size = readonly [number, number, number];
@@ -23,6 +23,16 @@ export function sizeOf(shape: Shape, { corners, groups }: Evaluator, part: numbe
   }
   const { scale } = shape.frame;
   return [0, 1, 2].map((i) => ((high[i] as number) - (low[i] as number)) * scale) as unknown as Size;
+}
+
+/** A point of a hexahedron, by its local coordinates −1 … 1, among flat corners (part × 24). */
+export function pointIn(corners: ArrayLike<number>, part: number, [u, v, w]: Vec3): Vec3 {
+  const point: [number, number, number] = [0, 0, 0];
+  for (let k = 0; k < 8; k++) {
+    const weight = ((1 + (k & 1 ? u : -u)) * (1 + (k & 2 ? v : -v)) * (1 + (k & 4 ? w : -w))) / 8;
+    for (let i = 0; i < 3; i++) point[i] = (point[i] ?? 0) + weight * (corners[part * 24 + 3 * k + i] ?? 0);
+  }
+  return point;
 }
 
 /** Lengths between the middles of opposite faces: what a tape measure along the part reads, however it is turned. */

@@ -3,7 +3,8 @@
 import type { Program, Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
 import type { CallOptions, CoreClient } from '../worker/client';
-import type { EditInput, OpenModel } from './document';
+import { type EditInput, type Labels, noLabels, type OpenModel } from './document';
+import type { Trace } from './trace';
 
 export interface Exported {
   readonly glb: Uint8Array;
@@ -18,47 +19,53 @@ export interface ExportOptions {
   readonly only?: readonly string[];
 }
 
+export interface Propagation {
+  /** One layer. */
+  readonly program: Program;
+  readonly trace?: Trace;
+}
+
 type Options = Pick<CallOptions, 'signal' | 'onProgress'>;
 
 export interface ModelCore {
-  /** Reads and abstracts a model. */
-  open(files: ModelFiles, options: Options): Promise<Shape>;
+  /** Reads and abstracts a model, with labels that take the place of the file's own. */
+  open(files: ModelFiles, options: Options, labels?: Labels): Promise<Shape>;
   /** One layer, from a seed edit. */
-  propagate(model: OpenModel, edit: EditInput, options: Options): Promise<Program>;
+  propagate(model: OpenModel, edit: EditInput, options: Options): Promise<Propagation>;
   /** The model's file with the program applied. */
   apply(model: OpenModel, program: Program, options: ExportOptions): Promise<Exported>;
 }
 
 /** @param onLost the core has lost its model, which is opened again when it is next asked about */
 export function modelCore(client: CoreClient, onLost: () => void): ModelCore {
-  let opened: ModelFiles | null = null;
+  let opened: Pick<OpenModel, 'files' | 'labels'> | null = null;
   client.onStateLost = () => {
     opened = null;
     onLost();
   };
-  const open = async (files: ModelFiles, options: Options): Promise<Shape> => {
+  const open = async (files: ModelFiles, options: Options, labels = noLabels): Promise<Shape> => {
     const external = [...files.external.keys()];
     const buffers = [files.main, ...files.external.values()];
     const { result } = await client.call(
       'open',
-      { name: files.name, external },
+      { name: files.name, external, ...(labels.size > 0 ? { labels: Object.fromEntries(labels) } : {}) },
       { ...options, buffers, state: 'model' },
     );
-    opened = files;
+    opened = { files, labels };
     return result.shape as unknown as Shape;
   };
-  const hold = async (files: ModelFiles, options: Options) => {
-    if (opened !== files) await open(files, options);
+  const hold = async ({ files, labels }: OpenModel, options: Options) => {
+    if (opened?.files !== files || opened.labels !== labels) await open(files, options, labels);
   };
   return {
     open,
     async propagate(model, edit, options) {
-      await hold(model.files, options);
+      await hold(model, options);
       const { result } = await client.call('propagate', { edit }, options);
-      return result.program as Program;
+      return result as Propagation;
     },
     async apply(model, program, { animate, only }) {
-      await hold(model.files, {});
+      await hold(model, {});
       const parameters = {
         program,
         values: program.layers.map(({ parameter }) => parameter.value),

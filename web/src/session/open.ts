@@ -1,15 +1,22 @@
 // Opening: a model by any route, and saved work on one. The work at hand stays until the new one is ready.
 import { signal } from '@preact/signals';
-import { checkProgram } from '../program/check';
-import { errorMessage } from '../program/types';
 import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
 import type { Saved } from '../share/saved';
 import { decompressed } from './decompress';
-import { type Document, emptyDocument, type LayerEntry, type ModelSource, type OpenModel, programOf } from './document';
+import {
+  type Document,
+  emptyDocument,
+  type Labels,
+  type LayerEntry,
+  type ModelSource,
+  noLabels,
+  type OpenModel,
+} from './document';
 import { type FileSet, modelOf, readUrl } from './files';
 import { galleryUrl } from './gallery';
 import type { ModelCore } from './model_core';
-import { document, newEntry, replaceDocument, run, say } from './session';
+import { carryOver } from './relabel';
+import { document, misfit, newEntry, replaceDocument, run, say } from './session';
 
 /** Meshes that have been read for a model that is about to be shown; the stage takes them. */
 const prepared = new WeakMap<ModelFiles, LoadedModel>();
@@ -31,19 +38,19 @@ async function abstract(
   core: ModelCore,
   get: (signal: AbortSignal) => Promise<ModelFiles>,
   source: ModelSource,
+  labels: Labels,
 ): Promise<OpenModel | null> {
   return run('Reading the model', async (options) => {
     const files = await decompressed(await get(options.signal), options);
-    const shape = await core.open(files, options);
+    const shape = await core.open(files, options, labels);
     prepared.set(files, await loadModel(files));
     options.signal.throwIfAborted();
-    return { files, source, shape };
+    return { files, source, shape, labels };
   });
 }
 
 function show(model: OpenModel, saved: Saved | null): boolean {
   const next = saved === null ? { ...emptyDocument, model } : documentOf(model, saved);
-  if (next === null) return false;
   openedView.value = saved?.view ?? null;
   replaceDocument(next, `open ${model.shape.name}`);
   const remarks = remarksOn(model);
@@ -64,22 +71,12 @@ function remarksOn({ files, shape }: OpenModel): string {
   return remarks.join(' ');
 }
 
-/** Saved work on its model; null, and a sentence, when it does not fit. */
-function documentOf(model: OpenModel, saved: Saved): Document | null {
+/** Saved work on its model. Layers that do not fit it are kept, and shown as such. */
+function documentOf(model: OpenModel, saved: Saved): Document {
   const off = new Set(saved.off);
   const layers: LayerEntry[] = saved.program.layers.map((layer, i) =>
     newEntry(layer, layer.parameter.value, !off.has(i)),
   );
-  // Layers that are off have to be sound as well: they can be switched on.
-  const everything = programOf(
-    model.shape,
-    layers.map((entry) => ({ ...entry, enabled: true })),
-  );
-  const checked = checkProgram(everything, model.shape);
-  if (!checked.ok) {
-    say(`The saved edits do not fit ${model.shape.name}. ${errorMessage(checked.error)}`, 'error');
-    return null;
-  }
   const known = new Set(model.shape.parts.map(({ id }) => id));
   return {
     model,
@@ -95,7 +92,7 @@ async function openFrom(
   source: ModelSource,
   saved: Saved | null,
 ): Promise<boolean> {
-  const model = await abstract(core, get, source);
+  const model = await abstract(core, get, source, saved?.labels === undefined ? noLabels : new Map(saved.labels));
   if (model === null) return false;
   if (saved !== null && saved.model.sha256 !== model.shape.sha256) {
     say(`${model.shape.name} is not the file that this work was made on (${saved.model.name}).`, 'error');
@@ -130,11 +127,36 @@ export function reopen(core: ModelCore, files: ModelFiles, source: ModelSource, 
   return openFrom(core, async () => files, source, saved);
 }
 
+/** Gives a part another label (null: the file's own): the shape is abstracted anew, and the work carried over to it. */
+export async function relabel(core: ModelCore, keys: readonly string[], label: string | null): Promise<boolean> {
+  const { model } = document.peek();
+  if (model === null) return false;
+  const labels = new Map(model.labels);
+  for (const key of keys)
+    if (label === null) labels.delete(key);
+    else labels.set(key, label);
+  const shape = await run('Looking at the parts again', (options) => core.open(model.files, options, labels));
+  if (shape === null || document.peek().model !== model) return false;
+  const next = carryOver(document.peek(), { ...model, shape, labels });
+  replaceDocument(next, 'change label');
+  const lost = next.layers.filter(({ layer }) => misfit(shape, layer) !== null);
+  if (lost.length > 0) {
+    const them =
+      lost.length === 1
+        ? 'One edit no longer fits the parts and rests'
+        : `${lost.length} edits no longer fit the parts and rest`;
+    say(`${them}. Undo takes the label back.`);
+  }
+  return true;
+}
+
 /** Saved work from a link or a file: opens its model, or asks for it. */
 export async function openSaved(core: ModelCore, saved: Saved): Promise<boolean> {
   const { gallery, url, sha256 } = saved.model;
   const { model } = document.peek();
-  if (model?.shape.sha256 === sha256) return show(model, saved);
+  if (model?.shape.sha256 === sha256 && saved.labels === undefined && model.labels.size === 0)
+    return show(model, saved);
+  if (model?.shape.sha256 === sha256) return reopen(core, model.files, model.source, saved);
   if (gallery !== undefined) return openGallery(core, gallery, saved);
   if (url !== undefined) return openUrl(core, url, saved);
   awaited.value = saved;

@@ -6,6 +6,7 @@ import { document, settle, slide, sliderValue } from './session';
 export const playing = signal<number | null>(null);
 
 const period = 1600; // milliseconds there and back
+const oncePeriod = 1200;
 let frame = 0;
 
 export const prefersReducedMotion = (): boolean => matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -21,7 +22,8 @@ export function playOnce(key: number): void {
   if (parameter === undefined || entry === undefined || prefersReducedMotion()) return;
   const end = Math.abs(parameter.min) > parameter.max ? parameter.min : parameter.max;
   const start = sliderValue(entry);
-  run(key, (t) => (t >= 1 ? null : start + ((end - start) * (1 - Math.cos(2 * Math.PI * t))) / 2), start);
+  const valueAt = (t: number) => (t >= 1 ? null : start + ((end - start) * (1 - Math.cos(2 * Math.PI * t))) / 2);
+  run(key, (milliseconds) => valueAt(milliseconds / oncePeriod), start);
 }
 
 /** Over the whole range until it is stopped; then the slider is back where it was. */
@@ -33,7 +35,11 @@ export function playOn(key: number): void {
   const start = sliderValue(entry);
   // Begins where the slider is: phase of the cosine at which the value is `start`.
   const phase = Math.acos(Math.min(1, Math.max(-1, 1 - (2 * (start - min)) / (max - min || 1))));
-  run(key, (t) => min + ((max - min) * (1 - Math.cos(phase + Math.PI * t))) / 2, start);
+  run(
+    key,
+    (milliseconds) => min + ((max - min) * (1 - Math.cos(phase + (Math.PI * milliseconds) / period))) / 2,
+    start,
+  );
 }
 
 let back: number | null = null;
@@ -55,13 +61,13 @@ export function interrupt(): void {
   if (key !== null) settle(key);
 }
 
-function run(key: number, valueAt: (t: number) => number | null, rest: number): void {
+function run(key: number, valueAt: (milliseconds: number) => number | null, rest: number): void {
   stop();
   playing.value = key;
   back = rest;
   const begin = performance.now();
   const next = (now: number) => {
-    const value = parameterOf(key) === undefined ? null : valueAt((now - begin) / period);
+    const value = parameterOf(key) === undefined ? null : valueAt(now - begin);
     if (value === null) return stop();
     slide(key, value);
     frame = requestAnimationFrame(next);

@@ -2,21 +2,24 @@
 import { batch, computed, effect, type ReadonlySignal, signal } from '@preact/signals';
 import { checkProgram } from '../program/check';
 import { compileProgram, type Evaluator } from '../program/compile';
-import { errorMessage, type Layer, type LocalTriple, type Program } from '../program/types';
+import { errorMessage, type Layer, type LocalTriple, type Program, type Shape } from '../program/types';
 import {
   type Document,
   type EditInput,
   emptyDocument,
+  emptyProgram,
   type LayerEntry,
   nameOf,
   type OpenModel,
   programOf,
   wholePart,
   withFreshParameters,
+  withRequest,
 } from './document';
 import { FileError } from './files';
 import { History } from './history';
-import type { ModelCore } from './model_core';
+import type { ModelCore, Propagation } from './model_core';
+import type { Trace } from './trace';
 
 const history = new History<Document>(emptyDocument);
 export const document: ReadonlySignal<Document> = history.present;
@@ -59,10 +62,30 @@ export type Compiled =
 let lastStructure: readonly unknown[] = [];
 let lastCompiled: Compiled = { kind: 'none' };
 
-/** The program of the layers that are on. Compiled anew when the layers change, not when only their values do. */
+const fits = new WeakMap<Layer, { readonly shape: Shape; readonly text: string | null }>();
+
+/** Why a layer does not fit a shape, in a sentence; null when it does. */
+export function misfit(shape: Shape, layer: Layer): string | null {
+  const known = fits.get(layer);
+  if (known?.shape === shape) return known.text;
+  const checked = checkProgram({ ...emptyProgram(shape), layers: [layer] }, shape);
+  const text = checked.ok ? null : errorMessage(checked.error);
+  fits.set(layer, { shape, text });
+  return text;
+}
+
+/** The layers that are on and fit the shape: what the model shows and what is exported. */
+export function activeLayers({ model, layers }: Document): readonly LayerEntry[] {
+  return model === null ? [] : layers.filter(({ enabled, layer }) => enabled && misfit(model.shape, layer) === null);
+}
+
+/** A layer that is shown but no part of the work yet: what a hand is pulling. */
+export const draft = signal<LayerEntry | null>(null);
+
+/** The program of the active layers. Compiled anew when the layers change, not when only their values do. */
 export const compiled = computed<Compiled>(() => {
-  const { model, layers } = document.value;
-  const active = layers.filter(({ enabled }) => enabled);
+  const { model } = document.value;
+  const active = [...activeLayers(document.value), ...(draft.value === null ? [] : [draft.value])];
   const structure = [model?.shape, ...active.flatMap(({ key, layer }) => [key, layer.parameter, layer.statements])];
   if (structure.length === lastStructure.length && structure.every((item, i) => item === lastStructure[i])) {
     return lastCompiled;
@@ -90,8 +113,12 @@ export function sliderValue(entry: LayerEntry): number {
   return liveValues.get(entry.key) ?? entry.value;
 }
 
+/** A layer of the work, or the draft. */
+export const entryOf = (key: number): LayerEntry | undefined =>
+  [...document.peek().layers, draft.peek()].find((entry) => entry?.key === key) ?? undefined;
+
 effect(() => {
-  const { layers } = document.value;
+  const layers = [...document.value.layers, ...(draft.value === null ? [] : [draft.value])];
   const now = compiled.value;
   liveValues.clear();
   if (now.kind === 'ready') {
@@ -119,6 +146,18 @@ export function settle(key: number): void {
   const value = liveValues.get(key);
   if (entry === undefined || value === undefined || value === entry.value) return;
   changeLayers(`“${titleOf(entry.layer)}”`, (layers) => replace(layers, key, { value }), `value ${key}`);
+}
+
+/** Makes the draft a layer of the work, where its slider stands; answers its key. One step of the history. */
+export function keepDraft(): number | null {
+  const entry = draft.peek();
+  if (entry === null) return null;
+  const kept = { ...entry, value: sliderValue(entry) };
+  batch(() => {
+    draft.value = null;
+    changeLayers(titleOf(entry.layer), (layers) => [...layers, kept]);
+  });
+  return kept.key;
 }
 
 export function setValue(key: number, value: number): void {
@@ -156,20 +195,37 @@ export const newEntry = (layer: Layer, value = layer.parameter.value, enabled = 
   value,
 });
 
-/** Adds the layers of a program behind the present ones; answers their keys, or null when they do not fit. */
-export function addProgram(program: Program, label: string): readonly number[] | null {
+/** Layers of a program as they would stand behind the present ones; null, and a sentence, when they do not fit. */
+export function entriesOf({ program, trace }: Propagation): readonly LayerEntry[] | null {
   const { model, layers } = document.peek();
   if (model === null) return null;
   const taken = new Set(layers.map(({ layer }) => layer.parameter.name));
-  const entries = withFreshParameters(program.layers, taken).map((layer) => newEntry(layer));
-  const all = [...layers, ...entries];
+  const entries = withFreshParameters(program.layers, taken).map((layer) => ({
+    ...newEntry(layer),
+    ...(trace === undefined ? {} : { trace }),
+  }));
+  const all = [...activeLayers(document.peek()), ...entries];
   const checked = checkProgram(programOf(model.shape, all), model.shape);
-  if (!checked.ok) {
-    say(`This program does not fit the model. ${errorMessage(checked.error)}`, 'error');
-    return null;
-  }
-  change(label, { layers: all });
+  if (checked.ok) return entries;
+  say(`This program does not fit the model. ${errorMessage(checked.error)}`, 'error');
+  return null;
+}
+
+/** Adds the layers of a program behind the present ones; answers their keys, or null when they do not fit. */
+export function addProgram(program: Program, label: string, trace?: Trace): readonly number[] | null {
+  const entries = entriesOf({ program, ...(trace === undefined ? {} : { trace }) });
+  if (entries === null) return null;
+  changeLayers(label, (layers) => [...layers, ...entries]);
   return entries.map(({ key }) => key);
+}
+
+/** Puts a layer that was edited as text in place of what it was. What propagation found out about it goes. */
+export function rewriteLayer(key: number, layer: Layer): void {
+  changeLayers('edit as text', (layers) =>
+    layers.map((entry) =>
+      entry.key === key ? { key, layer, enabled: entry.enabled, value: layer.parameter.value } : entry,
+    ),
+  );
 }
 
 export function removeLayer(key: number): void {
@@ -266,7 +322,8 @@ export async function run<T>(
   }
 }
 
-function sentence(error: unknown): string {
+/** An error as a whole sentence for people. */
+export function sentence(error: unknown): string {
   const text = error instanceof Error ? error.message : String(error);
   if (error instanceof FileError) return text;
   const whole = text || 'something went wrong';
@@ -278,13 +335,7 @@ function sentence(error: unknown): string {
 export async function propagate(core: ModelCore, edit: EditInput, request: string): Promise<number | null> {
   const { model } = document.peek();
   if (model === null) return null;
-  const program = await run('Working out how the other parts follow', (options) =>
-    core.propagate(model, edit, options),
-  );
-  if (program === null || document.peek().model !== model) return null;
-  const named = {
-    ...program,
-    layers: program.layers.map((layer) => ({ ...layer, request: request || layer.request })),
-  };
-  return addProgram(named, request || 'edit')?.[0] ?? null;
+  const found = await run('Working out how the other parts follow', (options) => core.propagate(model, edit, options));
+  if (found === null || document.peek().model !== model) return null;
+  return addProgram(withRequest(found.program, request), request || 'edit', found.trace)?.[0] ?? null;
 }

@@ -26,6 +26,13 @@ const savedSchema = v.strictObject({
   off: v.pipe(v.array(v.pipe(v.number(), v.integer(), v.minValue(0))), v.maxLength(limits.layers)),
   hidden: v.pipe(v.array(id), v.maxLength(limits.statements)),
   names: v.pipe(v.array(v.strictTuple([id, id])), v.maxLength(limits.statements)),
+  /** Labels given in place of the file's own, by "node:<index>/<primitive>". */
+  labels: v.exactOptional(
+    v.pipe(
+      v.array(v.strictTuple([v.pipe(v.string(), v.regex(/^node:\d{1,9}\/\d{1,9}$/)), id])),
+      v.maxLength(limits.statements),
+    ),
+  ),
   view: v.exactOptional(
     v.pipe(v.strictTuple([finite, finite, finite, finite, finite, finite]) as v.GenericSchema<unknown, CameraPose>),
   ),
@@ -38,7 +45,7 @@ export type ReadResult = { readonly ok: true; readonly saved: Saved } | { readon
 export function save(document: Document, view?: CameraPose): Saved {
   const { model, layers, hidden, names } = document;
   if (model === null) throw new Error('there is no model to save the work on');
-  const { shape, source } = model;
+  const { shape, source, labels } = model;
   return {
     format: 'parsel/session',
     version: 1,
@@ -57,6 +64,7 @@ export function save(document: Document, view?: CameraPose): Saved {
     off: layers.flatMap(({ enabled }, i) => (enabled ? [] : [i])),
     hidden: [...hidden],
     names: [...names],
+    ...(labels.size > 0 ? { labels: [...labels] } : {}),
     ...(view === undefined ? {} : { view }),
   };
 }

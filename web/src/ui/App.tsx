@@ -5,19 +5,23 @@ import { useEffect } from 'preact/hooks';
 import type { Insets } from '../scene/camera';
 import { readDropped } from '../session/files';
 import { document } from '../session/session';
+import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
 import { Dimensions } from './Dimensions';
 import { EditsPanel } from './EditsPanel';
+import { Handles } from './Handles';
 import { HelpDialog } from './HelpDialog';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
+import { ProgramDialog } from './ProgramDialog';
 import { ShareDialog } from './ShareDialog';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
 import { listenForShortcuts } from './shortcuts';
 import { TopBar } from './TopBar';
+import { Tour, TourOffer } from './Tour';
 import { isEmbedded, welcome } from './welcome';
 import type { FeatureKind } from './words';
 
@@ -51,6 +55,7 @@ export function App() {
   return (
     <div class={`app ${isPhone.value ? 'phone' : ''}`}>
       <StageView insets={insets} pickKind={pickKind} />
+      <Handles />
       <TopBar />
       <main>
         {isPhone.value ? (
@@ -68,13 +73,24 @@ export function App() {
           </>
         )}
         <div class={`centre ${editsOpen.value ? '' : 'low'}`}>
+          <TourOffer />
           <StatusLine />
-          <Dimensions />
+          <div class="row">
+            <Dimensions />
+            <ApartSlider />
+          </div>
         </div>
       </main>
+      {!isPhone.value && (
+        <footer class="foot quiet">
+          After <a href="https://arxiv.org/abs/2405.20319">ParSEL</a>, Ganeshan et al. 2024
+        </footer>
+      )}
+      <Tour />
       {dialog.value === 'open' && <OpenDialog />}
       {dialog.value === 'share' && <ShareDialog />}
       {dialog.value === 'help' && <HelpDialog />}
+      {dialog.value === 'text' && <ProgramDialog />}
       {dropping.value && (
         <div class="drop" aria-hidden="true">
           <p>Drop a model to open it</p>

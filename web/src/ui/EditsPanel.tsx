@@ -6,6 +6,7 @@ import { models } from '../session/core';
 import { loadGallery, type Suggestion } from '../session/gallery';
 import { playOnce } from '../session/play';
 import { compiled, document, propagate, task } from '../session/session';
+import { showText } from './actions';
 import { HandPanel } from './HandPanel';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
@@ -24,7 +25,7 @@ export function EditsPanel({ pickKind }: EditsProps) {
     <>
       {layers.length === 0 && pickKind.value === null && (
         <p class="quiet empty">
-          No edits yet. Start with a suggestion, or pick a part in the view and edit it by hand.
+          No edits yet. Start with a suggestion, or click a part in the view and pull its handles: the others follow.
         </p>
       )}
       {state.kind === 'refused' && (
@@ -40,15 +41,20 @@ export function EditsPanel({ pickKind }: EditsProps) {
       {pickKind.value === null ? (
         <>
           <Suggestions />
-          <button
-            type="button"
-            class="button wide"
-            onClick={() => {
-              pickKind.value = 'whole';
-            }}
-          >
-            <Icon name="hand" /> Edit by hand
-          </button>
+          <div class="row hand-buttons">
+            <button
+              type="button"
+              class="button wide"
+              onClick={() => {
+                pickKind.value = 'whole';
+              }}
+            >
+              <Icon name="hand" /> Edit by hand
+            </button>
+            <button type="button" class="button wide" onClick={() => showText(null)}>
+              <Icon name="text" /> Add from text
+            </button>
+          </div>
         </>
       ) : (
         <HandPanel

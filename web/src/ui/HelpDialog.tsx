@@ -4,9 +4,12 @@ import { Dialog } from './Dialog';
 
 const keys: readonly (readonly [keys: string, what: string])[] = [
   ['Drag, right-drag, wheel', 'turn, move, zoom'],
+  ['Drag a handle', 'pull a face of the selected part, or move it; with Alt one side only; Escape leaves it'],
+  ['Arrows on a handle', 'the same by keyboard; Enter keeps it'],
   ['F', 'bring the selected part, or everything, into view'],
   ['1 · 3 · 7', 'front, side, top view'],
   ['H · Alt+H', 'hide the selected part, show all'],
+  ['E', 'parts apart, parts together'],
   ['Escape', 'let go of the selection'],
   ['Space', 'animate the last edit'],
   ['Ctrl+Z · Ctrl+Shift+Z', 'undo, redo'],

@@ -1,15 +1,25 @@
 // One edit as a card: its request, its slider, what it keeps, and on demand every statement with its why.
 import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
-import type { RelationReport, Statement } from '../program/types';
+import type { Statement } from '../program/types';
 import type { LayerEntry } from '../session/document';
-import { formatMeasure } from '../session/measure';
 import { playing, playOn, stop } from '../session/play';
-import { document, moveLayer, pointedAt, removeLayer, renameLayer, setEnabled, titleOf } from '../session/session';
+import {
+  document,
+  misfit,
+  moveLayer,
+  pointedAt,
+  removeLayer,
+  renameLayer,
+  setEnabled,
+  titleOf,
+} from '../session/session';
+import { showText } from './actions';
 import { Icon } from './Icon';
 import { Menu } from './Menu';
 import { ValueSlider } from './ValueSlider';
-import { keptWords, relationWords, statementWords, whyWords } from './words';
+import { brokenWords, inWords, whyNothingElse } from './why';
+import { capital, keptWords, relationWords, statementWords, whyWords } from './words';
 
 interface CardProps {
   readonly entry: LayerEntry;
@@ -24,8 +34,10 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
   const renaming = useSignal(false);
   const isPlaying = playing.value === key;
   const title = titleOf(layer);
+  const shape = document.value.model?.shape;
+  const unfit = shape ? misfit(shape, layer) : null;
   return (
-    <li class={`card ${enabled ? '' : 'off'}`} aria-label={title}>
+    <li class={`card ${enabled && unfit === null ? '' : 'off'}`} aria-label={title}>
       <header>
         {renaming.value ? <RenameField entry={entry} done={() => (renaming.value = false)} /> : <h3>{title}</h3>}
         <button
@@ -33,10 +45,10 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
           class="button icon-only"
           aria-label={isPlaying ? `Stop ${title}` : `Animate ${title}`}
           title={isPlaying ? 'Stop' : 'Animate'}
-          aria-disabled={!enabled}
+          aria-disabled={!enabled || unfit !== null}
           onClick={() => {
             if (isPlaying) stop();
-            else if (enabled) playOn(key);
+            else if (enabled && unfit === null) playOn(key);
           }}
         >
           <Icon name={isPlaying ? 'pause' : 'play'} />
@@ -47,6 +59,7 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
             class="button icon-only"
             items={[
               { label: 'Rename', act: () => (renaming.value = true) },
+              { label: 'Show as text', act: () => showText(key) },
               { label: enabled ? 'Switch off' : 'Switch on', act: () => setEnabled(key, !enabled) },
               { label: 'Move up', disabled: first, act: () => moveLayer(key, -1) },
               { label: 'Move down', disabled: last, act: () => moveLayer(key, 1) },
@@ -57,9 +70,18 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
           </Menu>
         )}
       </header>
-      <ValueSlider entry={entry} />
+      {unfit === null ? (
+        <ValueSlider entry={entry} />
+      ) : (
+        <p class="unfit">
+          <Icon name="warning" />
+          <span>
+            Rests, since it does not fit the parts as they are labelled now. <span class="quiet">{unfit}</span>
+          </span>
+        </p>
+      )}
       {!enabled && <p class="quiet">Switched off</p>}
-      {!plain && <Status reports={layer.relations} />}
+      {!plain && unfit === null && <Status entry={entry} />}
       {!plain && <Statements statements={layer.statements} />}
     </li>
   );
@@ -97,10 +119,18 @@ const point = (parts: readonly string[], relations: readonly string[]) => {
 };
 
 /** What the edit keeps and gives up: quiet when all is held, amber with the reason when not. */
-function Status({ reports }: { reports: readonly RelationReport[] }) {
+function Status({ entry }: { entry: LayerEntry }) {
+  const { layer, trace } = entry;
+  const reports = layer.relations;
   const { model } = document.value;
   const kept = keptWords(reports);
-  if (model === null || kept === '') return null;
+  if (model === null) return null;
+  if (kept === '') {
+    return model.shape.relations.length > 0 ? (
+      <p class="quiet">Written by hand: what it keeps was not worked out.</p>
+    ) : null;
+  }
+  const alone = whyNothingElse(entry);
   const notable = reports.filter(({ status }) => status !== 'held');
   const broken = notable.some(({ status }) => status === 'broken');
   const sampled = reports.filter(({ status, proof }) => status === 'held' && proof === 'sampled').length;
@@ -118,8 +148,8 @@ function Status({ reports }: { reports: readonly RelationReport[] }) {
           {notable.map((report) => {
             const relation = model.shape.relations.find(({ id }) => id === report.id);
             if (relation === undefined) return null;
-            const off = formatMeasure('distance', report.worst * model.shape.frame.scale);
-            const text = report.status === 'disabled' ? 'ignored, as asked' : `comes apart by up to ${off}`;
+            const text =
+              report.status === 'disabled' ? 'ignored, as asked' : brokenWords(model.shape, layer, relation, report);
             return (
               <li key={report.id}>
                 <button type="button" class={`line ${report.status}`} {...point(relation.parts, [relation.id])}>
@@ -130,6 +160,12 @@ function Status({ reports }: { reports: readonly RelationReport[] }) {
           })}
         </ul>
       )}
+      {alone && <p class="quiet">{alone}</p>}
+      {trace?.notes.map((note) => (
+        <p class="quiet" key={note}>
+          {capital(inWords(document.value, note))}.
+        </p>
+      ))}
     </div>
   );
 }

@@ -1,9 +1,12 @@
 // The outliner: groups with their instances, parts, their visibility and names, and the relations of the selected part.
 import { useSignal } from '@preact/signals';
 import { isGroup, type ShapePart } from '../program/types';
-import { nameOf } from '../session/document';
+import { models } from '../session/core';
+import { nameOf, partKey } from '../session/document';
+import { relabel } from '../session/open';
 import { document, hovered, pointedAt, renamePart, select, selection, setHidden, showAll } from '../session/session';
 import { Icon } from './Icon';
+import { whyPart } from './why';
 import { relationWords } from './words';
 
 export function PartsPanel() {
@@ -30,7 +33,7 @@ export function PartsPanel() {
           Show all {hidden.size} hidden
         </button>
       )}
-      <Relations />
+      <SelectedPart />
     </>
   );
 }
@@ -129,11 +132,119 @@ function PartRow({ part, inner = false, count, children }: RowProps) {
   );
 }
 
-/** What holds the selected part: pointing at a relation shows its points or its plane. */
-function Relations() {
-  const { model } = document.value;
+function SelectedPart() {
   const id = selection.value?.part;
-  if (model === null || id === undefined) return null;
+  const part = document.value.model?.shape.parts.find((other) => other.id === id);
+  if (part === undefined) return null;
+  return (
+    <>
+      <Label key={part.id} part={part} />
+      <Relations id={part.id} />
+      <Why id={part.id} />
+    </>
+  );
+}
+
+/** What the part is, in the words of the file or of a person: parts of one label are compared for symmetry. */
+function Label({ part }: { part: ShapePart }) {
+  const { model } = document.value;
+  const typed = useSignal<string | null>(null);
+  if (model === null) return null;
+  const members = part.virtual ? model.shape.parts.filter(({ id }) => part.members.includes(id)) : [part];
+  const [first] = members;
+  if (first === undefined) return null;
+  const keys = members.map(partKey);
+  const isChanged = keys.some((key) => model.labels.has(key));
+  const give = async (label: string | null) => {
+    typed.value = null;
+    if (models.value === null || label === '' || (label === first.label && !isChanged)) return;
+    if (!(await relabel(models.value, keys, label))) return;
+    const again = document.peek().model?.shape.parts.find((other) => partKey(other) === partKey(first));
+    if (again) select(again.id);
+  };
+  const labels = [...new Set(model.shape.parts.filter(({ virtual }) => !virtual).map(({ label }) => label))];
+  return (
+    <form
+      class="label"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void give((typed.value ?? first.label).trim());
+      }}
+    >
+      <label for="part-label" title="Parts with one label are compared for symmetry">
+        Label
+      </label>
+      <input
+        id="part-label"
+        type="text"
+        list="part-labels"
+        maxLength={64}
+        autocomplete="off"
+        value={typed.value ?? first.label}
+        aria-describedby="part-label-help"
+        onInput={(event) => {
+          typed.value = event.currentTarget.value;
+        }}
+        onKeyDown={(event) => {
+          if (event.key === 'Escape') typed.value = null;
+        }}
+      />
+      <datalist id="part-labels">
+        {labels.map((label) => (
+          <option key={label} value={label} />
+        ))}
+      </datalist>
+      {typed.value !== null && typed.value.trim() !== first.label ? (
+        <button type="submit" class="button" disabled={!models.value || typed.value.trim() === ''}>
+          Set
+        </button>
+      ) : (
+        isChanged && (
+          <button type="button" class="button" title="The label of the file" onClick={() => void give(null)}>
+            Reset
+          </button>
+        )
+      )}
+      <p id="part-label-help" class="quiet">
+        Parts with one label may mirror each other or stand in a row.
+      </p>
+    </form>
+  );
+}
+
+/** Why it moves, or does not, layer by layer. */
+function Why({ id }: { id: string }) {
+  const layers = whyPart(document.value, id);
+  if (layers.length === 0) return null;
+  return (
+    <section class="relations" aria-label="Why it moves">
+      <h3>Why it moves, or stays</h3>
+      <ul class="whys">
+        {layers.map(({ layer, text, search }, i) => (
+          <li key={i}>
+            <p class="why-layer">{layer}</p>
+            {text.map((line) => (
+              <p class="quiet" key={line}>
+                {line}
+              </p>
+            ))}
+            {search && (
+              <details>
+                <summary>How it was found</summary>
+                <p class="quiet">{search}</p>
+              </details>
+            )}
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+/** What holds the selected part: pointing at a relation shows its points or its plane. */
+function Relations({ id }: { id: string }) {
+  const { model } = document.value;
+  if (model === null) return null;
   const relations = model.shape.relations.filter(
     (relation) => relation.parts.includes(id) || (isGroup(relation) && relation.parent === id),
   );

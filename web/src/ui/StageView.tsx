@@ -4,7 +4,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import type { LocalTriple, Sign, Vec3 } from '../program/types';
 import type { Insets } from '../scene/camera';
 import { document, hovered, select, selection } from '../session/session';
-import { currentEvaluator, mountStage, stage } from './view';
+import { mountStage, stage } from './view';
 import type { FeatureKind } from './words';
 
 const dragThreshold = 5; // CSS pixels
@@ -33,8 +33,7 @@ export function StageView({ insets, pickKind }: StageViewProps) {
   const model = document.value.model;
   useEffect(() => {
     stage.value?.setInsets({ left, right, top, bottom });
-    const evaluator = currentEvaluator();
-    if (evaluator) stage.value?.fit(evaluator, null);
+    stage.value?.fit(null);
   }, [left, right, top, bottom, stage.value]);
 
   const partAt = (x: number, y: number) => {

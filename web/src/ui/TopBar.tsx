@@ -3,8 +3,9 @@ import { document, redo, redoLabel, selection, undo, undoLabel } from '../sessio
 import { dialog, exportModel, exportProgram, exportScreenshot, saveSession } from './actions';
 import { Icon } from './Icon';
 import { Menu, type MenuItem } from './Menu';
+import { startTour } from './Tour';
 import { isDark, toggleTheme } from './theme';
-import { showColours } from './view';
+import { apart, showColours, toggleApart } from './view';
 
 function exportItems(): MenuItem[] {
   const { model, layers } = document.value;
@@ -76,10 +77,12 @@ export function TopBar() {
         class="button icon-only"
         items={[
           { label: 'Keyboard and help', hint: '?', act: () => (dialog.value = 'help') },
+          { label: 'Tour', act: startTour },
           {
             label: showColours.value ? 'Own colours' : 'Colour the parts',
             act: () => (showColours.value = !showColours.value),
           },
+          { label: apart.value > 0 ? 'Parts together' : 'Parts apart', hint: 'E', act: toggleApart },
           { label: isDark.value ? 'Light' : 'Dark', act: toggleTheme },
         ]}
       >

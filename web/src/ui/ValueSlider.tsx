@@ -6,7 +6,17 @@ import type { LayerEntry } from '../session/document';
 import { nameOf } from '../session/document';
 import { formatMeasure, type Measure, measureOf, parseMeasure } from '../session/measure';
 import { interrupt } from '../session/play';
-import { compiled, document, settle, setValue, slide, sliderValue, step, titleOf } from '../session/session';
+import {
+  activeLayers,
+  compiled,
+  document,
+  settle,
+  setValue,
+  slide,
+  sliderValue,
+  step,
+  titleOf,
+} from '../session/session';
 
 const steps = 200;
 
@@ -109,7 +119,7 @@ function readingOf(entry: LayerEntry): Reading {
 
 /** Reads a measure at other values of the slider, then puts everything back. */
 function probe(entry: LayerEntry, measure: Measure, evaluator: Evaluator, at: readonly number[]): number[] {
-  const layers = document.peek().layers.filter(({ enabled }) => enabled);
+  const layers = activeLayers(document.peek());
   const values = layers.map(sliderValue);
   const index = layers.findIndex(({ key }) => key === entry.key);
   const read = at.map((value) => {

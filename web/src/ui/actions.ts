@@ -1,17 +1,25 @@
 // What buttons, keys and drops have in common: opening files, exporting, sharing.
-import { signal } from '@preact/signals';
+import { type ReadonlySignal, signal } from '@preact/signals';
 import { models } from '../session/core';
 import { programOf } from '../session/document';
 import { type FileSet, sessionText } from '../session/files';
 import type { ExportOptions } from '../session/model_core';
 import { openFiles, openSaved } from '../session/open';
-import { document, run, say, selection } from '../session/session';
+import { activeLayers, document, run, say, selection } from '../session/session';
 import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
 import { stage } from './view';
 
-export type DialogName = 'open' | 'share' | 'help';
+export type DialogName = 'open' | 'share' | 'help' | 'text';
 export const dialog = signal<DialogName | null>(null);
+/** Key of the layer that the text dialog is about; null for text from elsewhere. */
+const textKey = signal<number | null>(null);
+export const textOf: ReadonlySignal<number | null> = textKey;
+
+export function showText(key: number | null): void {
+  textKey.value = key;
+  dialog.value = 'text';
+}
 
 /** Opens what was dropped or picked: a model, or saved work. */
 export async function openAny(reading: Promise<FileSet>): Promise<boolean> {
@@ -52,8 +60,8 @@ export function saveSession(): void {
 }
 
 export function exportProgram(): void {
-  const { model, layers } = document.peek();
-  if (model) download(fileName('.program.json'), jsonBlob(programOf(model.shape, layers)));
+  const { model } = document.peek();
+  if (model) download(fileName('.program.json'), jsonBlob(programOf(model.shape, activeLayers(document.peek()))));
 }
 
 export async function exportScreenshot(): Promise<void> {
@@ -63,9 +71,9 @@ export async function exportScreenshot(): Promise<void> {
 
 export async function exportModel(kind: 'all' | 'selected' | 'animated'): Promise<void> {
   const core = models.peek();
-  const { model, layers } = document.peek();
+  const { model } = document.peek();
   if (core === null || model === null) return;
-  const program = programOf(model.shape, layers);
+  const program = programOf(model.shape, activeLayers(document.peek()));
   const options: ExportOptions = {
     ...(kind === 'animated' ? { animate: program.layers.at(-1)?.parameter.name ?? '' } : {}),
     ...(kind === 'selected' ? { only: [selection.peek()?.part ?? ''] } : {}),

@@ -3,7 +3,7 @@ import type { Evaluator } from '../program/compile';
 import type { Stage } from '../scene/stage';
 import { core } from '../session/core';
 import type { Document } from '../session/document';
-import { addProgram, document, slide } from '../session/session';
+import { addProgram, document, select, slide } from '../session/session';
 import type { CoreClient } from '../worker/client';
 import { currentEvaluator, stage } from './view';
 
@@ -19,6 +19,7 @@ export interface DebugHandle {
   /** Corners of all parts as the sliders stand, part × 24. */
   corners(): number[];
   addProgram: typeof addProgram;
+  select: typeof select;
   slide: typeof slide;
 }
 
@@ -35,6 +36,7 @@ export function exposeForDebugging(): void {
     evaluator: currentEvaluator,
     corners: () => [...(currentEvaluator()?.corners ?? [])],
     addProgram,
+    select,
     slide,
   };
   Object.assign(globalThis, { parsel: handle });

@@ -1,8 +1,9 @@
 // Keys of the whole page, after Blender's where it has them. Fields keep their own keys.
 import { playing, playOn, stop } from '../session/play';
+import { cancelPull, pull } from '../session/pull';
 import { document, redo, select, selection, setHidden, showAll, undo } from '../session/session';
 import { dialog, saveSession } from './actions';
-import { focusView, stage } from './view';
+import { focusView, stage, toggleApart } from './view';
 
 const isField = (target: EventTarget | null) =>
   target instanceof HTMLElement &&
@@ -53,11 +54,16 @@ function onPlain(event: KeyboardEvent): boolean {
       select(null);
       return true;
     }
+    case 'e':
+    case 'E':
+      toggleApart();
+      return true;
     case '?':
       dialog.value = 'help';
       return true;
     case 'Escape':
-      if (playing.peek() !== null) stop();
+      if (pull.peek() !== null) cancelPull();
+      else if (playing.peek() !== null) stop();
       else select(null);
       return true;
     case ' ': {

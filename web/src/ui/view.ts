@@ -1,6 +1,7 @@
 // The one stage of the page, and what the interface shows on it.
 import { effect, signal, untracked } from '@preact/signals';
 import type { Evaluator } from '../program/compile';
+import type { Shape } from '../program/types';
 import type { LoadedModel, ModelFiles } from '../scene/load';
 import type { Tint } from '../scene/model_view';
 import { noTint } from '../scene/model_view';
@@ -11,8 +12,31 @@ import { compiled, document, hovered, pointedAt, say, selection, step } from '..
 import { theme } from './theme';
 
 export const stage = signal<Stage | null>(null);
-/** Model that stands on the stage. */
-export const shown = signal<ModelFiles | null>(null);
+/** Shape that stands on the stage. */
+export const shown = signal<Shape | null>(null);
+let shownFiles: ModelFiles | null = null;
+/** How far the parts are drawn apart, 0 … 1. */
+export const apart = signal(0);
+
+/** All the way apart, or back together, in a moment. */
+export function toggleApart(): void {
+  const from = apart.peek();
+  const to = from > 0 ? 0 : 1;
+  if (document.peek().model === null) return;
+  cancelAnimationFrame(apartFrame);
+  if (prefersReducedMotion()) {
+    apart.value = to;
+    return;
+  }
+  const begin = performance.now();
+  const next = (now: number) => {
+    const t = Math.min(1, (now - begin) / 350);
+    apart.value = from + (to - from) * (1 - (1 - t) ** 3);
+    if (t < 1) apartFrame = requestAnimationFrame(next);
+  };
+  apartFrame = requestAnimationFrame(next);
+}
+let apartFrame = 0;
 export const showColours = signal(false);
 let actor: Actor | null = null;
 
@@ -38,10 +62,11 @@ export function mountStage(canvas: HTMLCanvasElement): () => void {
     }),
     effect(() => {
       const { hidden, model } = document.value;
-      if (shown.value !== model?.files) return;
+      if (shown.value !== (model?.shape ?? null)) return;
       for (const [i, { id }] of (model?.shape.parts ?? []).entries()) actor?.view.setHidden(i, hidden.has(id));
       created.invalidate();
     }),
+    effect(() => created.setApart(apart.value)),
     effect(() => light(created)),
   ];
   return () => {
@@ -49,13 +74,13 @@ export function mountStage(canvas: HTMLCanvasElement): () => void {
     created.dispose();
     stage.value = null;
     actor = null;
-    shown.value = null;
+    shown.value = shownFiles = null;
   };
 }
 
 async function showModel(on: Stage): Promise<void> {
   const { model } = document.value;
-  if (model === null || model.files === untracked(() => shown.value)) return;
+  if (model === null || model.shape === untracked(() => shown.value)) return;
   let loaded: LoadedModel;
   try {
     loaded = await takeLoaded(model.files);
@@ -64,30 +89,30 @@ async function showModel(on: Stage): Promise<void> {
   }
   if (document.peek().model !== model || stage.peek() !== on) return loaded.dispose();
   actor = on.show(loaded, model.shape);
-  shown.value = model.files;
+  const isAnother = shownFiles !== model.files;
+  shownFiles = model.files;
+  if (isAnother) apart.value = 0;
+  shown.value = model.shape;
   const evaluator = currentEvaluator();
   if (evaluator === null) return;
   on.update(evaluator);
   const view = openedView.peek();
   openedView.value = null;
-  on.fit(evaluator, null, false);
+  if (isAnother) on.fit(null, false);
   if (view) on.rig.pose = view;
 }
 
 /** Brings the selected part, or everything, into view. */
 export function focusView(): void {
-  const evaluator = currentEvaluator();
-  const { model } = document.peek();
-  if (!evaluator || model === null) return;
   const part = selection.peek()?.part;
-  const index = model.shape.parts.findIndex(({ id }) => id === part);
-  stage.peek()?.fit(evaluator, index < 0 ? null : index);
+  const index = document.peek().model?.shape.parts.findIndex(({ id }) => id === part) ?? -1;
+  stage.peek()?.fit(index < 0 ? null : index);
 }
 
 /** Tints and overlays: the selected part lit and the rest a little dimmed, hovered and pointed-at parts lit. */
 function light(on: Stage): void {
   const { model } = document.value;
-  if (model === null || shown.value !== model.files || actor === null) return;
+  if (model === null || shown.value !== model.shape || actor === null) return;
   const { accentRgb, groundRgb } = theme.value;
   const tint = (rgb: readonly [number, number, number], strength: number): Tint => [...rgb, strength];
   const lit = tint(accentRgb, 0.34);
@@ -108,9 +133,8 @@ function light(on: Stage): void {
     model.shape.relations.findIndex((relation) => relation.id === id),
   );
   const part = model.shape.parts.findIndex(({ id }) => id === selection.value?.part);
-  const evaluator = untracked(currentEvaluator);
-  if (evaluator) {
-    actor.overlays.show({ part, feature: selection.value?.feature ?? [0, 0, 0], relations }, evaluator.corners);
+  if (on.corners.length > 0) {
+    actor.overlays.show({ part, feature: selection.value?.feature ?? [0, 0, 0], relations }, on.corners);
   }
   on.invalidate();
 }

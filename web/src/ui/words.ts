@@ -80,7 +80,7 @@ function fromWords(document: Document, part: string, origin: PointReference): st
   return `about the ${at} of ${nameOf(document, origin.part)}`;
 }
 
-const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
+export const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** What a statement does, as a sentence without a full stop. */
 export function statementWords(document: Document, statement: Statement): string {

@@ -19,10 +19,15 @@ export const methodSchemas = {
   },
   /**
    * Opens a model: buffers are the file and then its external buffers, in the order of their names in `external`. The
-   * shape is `parsel/shape` v1. Sets the core's state: call it with a `state` of its own.
+   * shape is `parsel/shape` v1. `labels` take the place of the file's own, by "node:<index>" or
+   * "node:<index>/<primitive>". Sets the core's state: call it with a `state` of its own.
    */
   open: {
-    parameters: v.strictObject({ name: v.string(), external: v.array(v.string()) }),
+    parameters: v.strictObject({
+      name: v.string(),
+      external: v.array(v.string()),
+      labels: v.optional(v.record(v.string(), v.string())),
+    }),
     result: v.strictObject({ shape: v.looseObject({ format: v.literal('parsel/shape'), version: v.literal(1) }) }),
   },
   /** Bytes of the core's memory. It never shrinks, so this is its peak as well. */

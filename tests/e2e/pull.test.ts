@@ -1,0 +1,142 @@
+// Handles in the view: a face is pulled by the mouse and by the keyboard, the whole shape follows, and it is one step.
+import type { Server } from 'node:http';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { DebugHandle } from '../../web/src/ui/debug';
+import { stool } from './fixture';
+import { launch, openModel, outputFolder, serve } from './harness';
+
+declare const parsel: DebugHandle;
+
+let server: Server;
+let url: string;
+let browser: Browser;
+let page: Page;
+let complaints: string[];
+beforeAll(async () => {
+  ({ url, server } = await serve());
+  browser = await launch();
+});
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+});
+beforeEach(async () => {
+  await page?.context().close();
+  ({ page, complaints } = await openModel(browser, url, stool));
+  await page.getByRole('button', { name: 'seat', exact: true }).click();
+  await handle('Pull left of seat').waitFor();
+});
+
+const handle = (name: string) => page.getByRole('button', { name, exact: true });
+const corners = () => page.evaluate(() => parsel.corners());
+const layers = () => page.evaluate(() => parsel.document().layers.map(({ layer, value }) => ({ layer, value })));
+
+/** Presses a handle and drags it; the button stays down. */
+async function drag(name: string, by: readonly [number, number]): Promise<void> {
+  const box = await handle(name).boundingBox();
+  if (box === null) throw new Error(`${name} is not there`);
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + by[0] / 2, y + by[1] / 2);
+  await page.locator('.handle.held .reading').filter({ hasText: '→' }).waitFor();
+  await page.mouse.move(x + by[0], y + by[1], { steps: 4 });
+}
+
+describe('pulling a face', () => {
+  it('moves the shape under the hand, and leaves one layer with a slider, in one step', async () => {
+    const rest = await corners();
+    await drag('Pull left of seat', [40, 10]);
+    const held = await corners();
+    expect(held).not.toEqual(rest);
+    expect(await page.locator('.card').count()).toBe(0); // nothing is done before the hand lets go
+    await page.screenshot({ path: `${outputFolder}/pulling.png` });
+    await page.mouse.up();
+    await page.locator('.card').waitFor();
+    expect(await corners()).toEqual(held);
+    const [made] = await layers();
+    expect(made?.layer.statements[0]).toMatchObject({ op: 'scale_1d', part: 'seat', direction: { part: 'seat' } });
+    expect(made?.value).not.toBe(0);
+    expect(await page.locator('.card h3').textContent()).toBe('Pull left of seat');
+    await page.keyboard.press('Control+z');
+    expect(await corners()).toEqual(rest);
+    expect(await page.locator('.card').count()).toBe(0);
+    await page.keyboard.press('Control+Shift+z');
+    expect(await corners()).toEqual(held);
+    expect(complaints).toEqual([]);
+  });
+
+  it('keeps the point under the pointer', async () => {
+    const where = async () => {
+      const box = await handle('Pull left of seat').boundingBox();
+      return box ? box.x + box.width / 2 : Number.NaN;
+    };
+    const before = await where();
+    await drag('Pull left of seat', [30, 0]);
+    // Along the axis, so the pointer's own way counts as far as the axis runs across the screen.
+    await expect.poll(where).toBeGreaterThan(before + 15);
+    expect(await where()).toBeLessThan(before + 45);
+    await page.mouse.up();
+  });
+
+  it('is left by Escape as if it had not been', async () => {
+    const rest = await corners();
+    await drag('Pull left of seat', [40, 10]);
+    expect(await corners()).not.toEqual(rest);
+    await page.keyboard.press('Escape');
+    expect(await corners()).toEqual(rest);
+    await page.mouse.up();
+    expect(await layers()).toEqual([]);
+    expect(await page.getByRole('button', { name: 'Undo', exact: true }).isDisabled()).toBe(true);
+  });
+
+  it('again goes on with the same slider', async () => {
+    for (const _ of [1, 2]) {
+      await drag('Pull left of seat', [20, 5]);
+      await page.mouse.up();
+      await page.locator('.card').waitFor();
+    }
+    expect((await layers()).length).toBe(1);
+  });
+
+  it('goes by keyboard too: arrows pull, Enter keeps', async () => {
+    const rest = await corners();
+    await handle('Pull left of seat').focus();
+    await page.keyboard.press('ArrowRight');
+    await page.locator('.handle.held .reading').filter({ hasText: '→' }).waitFor();
+    await page.keyboard.press('Shift+ArrowRight');
+    await page.keyboard.press('Enter');
+    await page.locator('.card').waitFor();
+    expect(await corners()).not.toEqual(rest);
+    expect(complaints).toEqual([]);
+  });
+});
+
+describe('moving a part', () => {
+  it('goes along the axis that is nearest to the drag', async () => {
+    await drag('Move seat', [0, -40]);
+    await page.mouse.up();
+    await page.locator('.card').waitFor();
+    const [made] = await layers();
+    expect(made?.layer.statements[0]).toMatchObject({ op: 'translate', part: 'seat', direction: [0, 1, 0] });
+    expect(made?.value).toBeGreaterThan(0);
+    expect(complaints).toEqual([]);
+  });
+
+  it('says in a sentence when the core refuses', async () => {
+    await page.evaluate(() => {
+      const no = () => Promise.reject(new Error('the seat cannot do that; choose another operator'));
+      Object.assign(parsel.client(), { call: no });
+    });
+    const box = await handle('Move seat').boundingBox();
+    await page.mouse.move((box?.x ?? 0) + 16, (box?.y ?? 0) + 16);
+    await page.mouse.down();
+    await page.mouse.move((box?.x ?? 0) + 16, (box?.y ?? 0) - 30, { steps: 3 });
+    await expect
+      .poll(() => page.getByRole('alert').textContent())
+      .toBe('The seat cannot do that; choose another operator.');
+    await page.mouse.up();
+    expect(await layers()).toEqual([]);
+  });
+});

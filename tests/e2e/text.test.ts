@@ -1,0 +1,105 @@
+// Programs as text in the page: read, edited with errors in place, taken over, added from elsewhere. And the tour.
+import type { Server } from 'node:http';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import { programText } from '../../web/src/program/text';
+import type { Shape } from '../../web/src/program/types';
+import type { DebugHandle } from '../../web/src/ui/debug';
+import { program, stool } from './fixture';
+import { launch, openModel, serve } from './harness';
+
+declare const parsel: DebugHandle;
+
+let server: Server;
+let url: string;
+let browser: Browser;
+let page: Page;
+let complaints: string[];
+let shape: Shape;
+beforeAll(async () => {
+  ({ url, server } = await serve());
+  browser = await launch();
+});
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+});
+beforeEach(async () => {
+  await page?.context().close();
+  ({ page, complaints } = await openModel(browser, url, stool));
+  shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
+  await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
+  await page.locator('.card').nth(2).waitFor();
+});
+
+const text = () => page.getByLabel('Program', { exact: true });
+async function show(card: number): Promise<void> {
+  await page.locator('.card').nth(card).getByRole('button', { name: 'More about' }).click();
+  await page.getByRole('menuitem', { name: 'Show as text' }).click();
+}
+
+describe('a layer as text', () => {
+  it('is complete, refuses what is wrong in its place, and moves the model when it is right', async () => {
+    await show(0);
+    const before = await text().inputValue();
+    expect(before).toContain('scale_1d("seat", amount=x1');
+    const apply = page.getByRole('button', { name: 'Apply' });
+    expect(await apply.isDisabled()).toBe(true);
+
+    await text().fill(before.replace('amount=x1', 'amount=y1'));
+    const error = page.getByRole('button', { name: /^Line 5, column \d+: the amount names an unknown parameter/ });
+    await error.click();
+    const marked = await text().evaluate((field: HTMLTextAreaElement) =>
+      field.value.slice(field.selectionStart, field.selectionStart + 2),
+    );
+    expect(marked).toBe('y1');
+    expect(await apply.isDisabled()).toBe(true);
+
+    await text().fill(before.replace('amount=x1', 'amount=2*x1'));
+    await apply.click();
+    await page.getByRole('slider').first().fill('0.2');
+    expect(await page.getByLabel('seat width, type a value').inputValue()).toBe('70 cm');
+    await page.locator('canvas').focus();
+    await page.keyboard.press('Control+z');
+    await page.keyboard.press('Control+z');
+    await page.getByRole('slider').first().fill('0.2');
+    expect(await page.getByLabel('seat width, type a value').inputValue()).toBe('60 cm');
+    expect(complaints).toEqual([]);
+  });
+
+  it('from a file is added behind the others', async () => {
+    await page.getByRole('button', { name: 'Add from text' }).click();
+    const content = programText({ ...program(shape), layers: program(shape).layers.slice(0, 1) });
+    await page
+      .getByLabel('Program from a file')
+      .setInputFiles([{ name: 'a.txt', mimeType: 'text/plain', buffer: Buffer.from(content) }]);
+    await expect.poll(() => text().inputValue()).toBe(content);
+    await page.getByRole('button', { name: 'Add', exact: true }).click();
+    await page.locator('.card').nth(3).waitFor();
+    const names = await page.evaluate(() => parsel.document().layers.map(({ layer }) => layer.parameter.name));
+    expect(new Set(names).size).toBe(4);
+    expect(complaints).toEqual([]);
+  });
+});
+
+describe('the tour', () => {
+  const tour = () => page.getByRole('dialog', { name: /^Tour/ });
+
+  it('is offered once, walks by keyboard, and starts again from the menu', async () => {
+    await page.getByRole('button', { name: 'Show me around' }).click();
+    expect(await tour().getAttribute('aria-label')).toMatch(/1 of 5/);
+    await page.keyboard.press('Enter');
+    await page.keyboard.press('ArrowRight');
+    expect(await tour().getAttribute('aria-label')).toMatch(/3 of 5/);
+    await page.keyboard.press('Escape');
+    expect(await tour().count()).toBe(0);
+    await page.reload();
+    await page.locator('.card').first().waitFor();
+    expect(await page.getByRole('button', { name: 'Show me around' }).count()).toBe(0);
+    await page.getByRole('button', { name: 'View and help' }).click();
+    await page.getByRole('menuitem', { name: 'Tour' }).click();
+    for (let i = 0; i < 5; i++) await page.keyboard.press('Enter');
+    expect(await tour().count()).toBe(0);
+    expect(complaints).toEqual([]);
+  });
+});

@@ -1,0 +1,76 @@
+// How far a slider can go before a relation that an edit does not keep comes apart.
+import { checkProgram } from '../program/check';
+import { compileProgram, type Evaluator } from '../program/compile';
+import { isGroup, type Layer, type Shape, type ShapeRelation } from '../program/types';
+import { emptyProgram } from './document';
+import { type Measure, measureOf, pointIn } from './measure';
+
+/** What is held is off by no more, normalised: the deltas of core/base/tolerance.h, with one and with both parts edited. */
+const slackOneEdited = 0.0144;
+const slackBothEdited = 0.0433;
+const samples = 96;
+
+export interface Loosening {
+  /** What the slider reads where the relation comes apart, downwards and upwards of rest; null where it does not. */
+  readonly below: number | null;
+  readonly above: number | null;
+  /** At rest. */
+  readonly rest: number;
+  readonly measure: Measure;
+}
+
+const found = new WeakMap<Layer, Map<ShapeRelation, Loosening | null>>();
+
+/** Of a layer on its own; null for groups, for a layer without a measure, and for what never comes apart. */
+export function looseningOf(shape: Shape, layer: Layer, relation: ShapeRelation): Loosening | null {
+  const known = found.get(layer) ?? new Map<ShapeRelation, Loosening | null>();
+  found.set(layer, known);
+  if (!known.has(relation)) known.set(relation, search(shape, layer, relation));
+  return known.get(relation) ?? null;
+}
+
+function search(shape: Shape, layer: Layer, relation: ShapeRelation): Loosening | null {
+  const seed = layer.statements.find(({ why }) => why?.kind === 'seed') ?? layer.statements[0];
+  const measure = measureOf(shape, seed);
+  const checked = checkProgram({ ...emptyProgram(shape), layers: [layer] }, shape);
+  if (isGroup(relation) || measure === null || !checked.ok) return null;
+  const evaluator = compileProgram(checked.value, shape);
+  const off = deviation(shape, relation);
+  const edited = new Set(
+    layer.statements.flatMap((statement) => ('amount' in statement && 'part' in statement ? [statement.part] : [])),
+  );
+  const slack = relation.parts.every((id) => edited.has(id)) ? slackBothEdited : slackOneEdited;
+  const { min, max } = layer.parameter;
+  const firstBeyond = (end: number): number | null => {
+    for (let i = 1; i <= samples; i++) {
+      evaluator.evaluate([(end * i) / samples]);
+      if (off(evaluator) > slack) return measure.read(evaluator);
+    }
+    return null;
+  };
+  const [below, above] = [firstBeyond(min), firstBeyond(max)];
+  evaluator.evaluate([0]);
+  return below === null && above === null ? null : { below, above, rest: measure.read(evaluator), measure };
+}
+
+/** Largest coordinate by which a relation is off, against what it is at rest. */
+function deviation(shape: Shape, relation: Exclude<ShapeRelation, { kind: 'translation' | 'rotation' }>) {
+  const [a = 0, b = 0] = relation.parts.map((id) => shape.parts.findIndex((part) => part.id === id));
+  const differences = (corners: ArrayLike<number>): number[] => {
+    if (relation.kind !== 'reflection') {
+      return relation.local_a.flatMap((local, i) => {
+        const to = pointIn(corners, b, relation.local_b[i] ?? local);
+        return pointIn(corners, a, local).map((value, axis) => value - (to[axis] ?? 0));
+      });
+    }
+    const { origin, normal, corner_map } = relation;
+    return corner_map.flatMap((from, k) => {
+      const at = [0, 1, 2].map((axis) => corners[a * 24 + from * 3 + axis] ?? 0);
+      const beyond = at.reduce((sum, value, axis) => sum + (value - (origin[axis] ?? 0)) * (normal[axis] ?? 0), 0);
+      return at.map((value, axis) => value - 2 * beyond * (normal[axis] ?? 0) - (corners[b * 24 + k * 3 + axis] ?? 0));
+    });
+  };
+  const rest = differences(shape.parts.flatMap((part) => part.corners.flat()));
+  return ({ corners }: Evaluator) =>
+    Math.max(...differences(corners).map((value, i) => Math.abs(value - (rest[i] ?? 0))));
+}

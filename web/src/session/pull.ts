@@ -1,0 +1,205 @@
+// Pulling at the shape in the view. What is grabbed decides the seed edit; it is propagated once, when the pull begins,
+// and from then on the hand moves the slider of the layer that came of it, so that the whole shape follows at every
+// frame. Letting go keeps the layer, Escape leaves everything as it was.
+import { signal } from '@preact/signals';
+import type { Axis, LocalTriple, Shape, ShapePart, Statement, Vec3 } from '../program/types';
+import { withRequest } from './document';
+import { type Measure, measureOf, pointIn } from './measure';
+import type { ModelCore } from './model_core';
+import {
+  activeLayers,
+  compiled,
+  document,
+  draft,
+  entriesOf,
+  entryOf,
+  keepDraft,
+  say,
+  sentence,
+  settle,
+  slide,
+  sliderValue,
+} from './session';
+
+/** A feature of a part that a hand holds; the whole part is moved, a face stretches it. */
+export interface Grab {
+  readonly part: string;
+  readonly feature: LocalTriple;
+  /** The global axis along which a part, an edge or a corner goes; a face goes along its own normal. */
+  readonly axis: Axis;
+  /** The opposite face stays, also where pulling at both sides would keep the shape symmetric. */
+  readonly oneSided: boolean;
+}
+
+export interface Pull {
+  readonly grab: Grab;
+  /** Unit vector in the normalised frame. */
+  readonly direction: Vec3;
+  /** Null until the core has answered. */
+  readonly layer: {
+    readonly key: number;
+    /** Value of the slider when the pull began, and its range. */
+    readonly start: number;
+    readonly min: number;
+    readonly max: number;
+    /** How far the feature goes along the direction for each unit of the slider. */
+    readonly gain: number;
+    readonly measure: Measure | null;
+    /** Of the measure when the pull began. */
+    readonly before: number;
+  } | null;
+}
+export const pull = signal<Pull | null>(null);
+
+const axes: readonly Vec3[] = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+];
+const dot = (a: Vec3, b: Vec3) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const isFace = (feature: LocalTriple) => feature.filter((sign) => sign !== 0).length === 1;
+
+/** From the opposite face to this one, of length 1. */
+export function faceNormal(corners: ArrayLike<number>, part: number, feature: LocalTriple): Vec3 {
+  const to = pointIn(corners, part, feature);
+  const from = pointIn(corners, part, opposite(feature));
+  const d = to.map((value, i) => value - (from[i] ?? 0)) as unknown as Vec3;
+  const length = Math.hypot(...d) || 1;
+  return d.map((value) => value / length) as unknown as Vec3;
+}
+
+// Not -sign, which makes -0 of 0.
+const opposite = (feature: LocalTriple) => feature.map((sign) => 0 - sign) as unknown as LocalTriple;
+
+/** Whether a mirror symmetry of the shape goes through the middle of a part, across one of its axes. */
+function isMirrored({ relations }: Shape, { corners, axes: own }: ShapePart, axis: Axis): boolean {
+  const centre = pointIn(corners.flat(), 0, [0, 0, 0]);
+  return relations.some((relation) => {
+    if (relation.kind !== 'reflection' || Math.abs(dot(relation.normal, own[axis])) < 0.98) return false;
+    const off = centre.map((value, i) => value - (relation.origin[i] ?? 0)) as unknown as Vec3;
+    return Math.abs(dot(relation.normal, off)) < 0.01;
+  });
+}
+
+/**
+ * What grabbing means. A face stretches its part from the opposite face, or from the centre where the part lies across
+ * a mirror plane of the shape: pulling at one side of a seat then widens the chair, and keeps it symmetric.
+ */
+export function seedOfGrab(shape: Shape, { part: id, feature, axis, oneSided }: Grab): Statement {
+  const amount = 'x';
+  const part = shape.parts.find((other) => other.id === id);
+  if (part === undefined || !isFace(feature)) {
+    return { op: 'translate', part: id, feature, direction: axes[axis] ?? [0, 1, 0], amount };
+  }
+  const own = feature.findIndex((sign) => sign !== 0) as Axis;
+  const at: LocalTriple = !oneSided && isMirrored(shape, part, own) ? [0, 0, 0] : opposite(feature);
+  const direction = { part: id, axis: own };
+  return { op: 'scale_1d', part: id, feature: [0, 0, 0], origin: { part: id, at }, direction, amount };
+}
+
+const sameEdit = (a: Statement, b: Statement) => {
+  const plain = ({ why, ...statement }: Statement) => ({ ...statement, amount: '' });
+  const sorted = (value: object) => JSON.stringify(Object.entries(value).sort(([m], [n]) => (m < n ? -1 : 1)));
+  return sorted(plain(a)) === sorted(plain(b));
+};
+
+let abort: AbortController | null = null;
+
+/** Begins to pull. Pulling at what the last layer pulls at moves that layer's slider on. Resolves once it follows. */
+export async function beginPull(core: ModelCore, grab: Grab, request: string): Promise<boolean> {
+  const { model } = document.peek();
+  const index = model?.shape.parts.findIndex(({ id }) => id === grab.part) ?? -1;
+  const state = compiled.peek();
+  if (model === null || index < 0 || state.kind !== 'ready') return false;
+  cancelPull();
+  const { corners } = state.evaluator;
+  const direction = isFace(grab.feature) ? faceNormal(corners, index, grab.feature) : (axes[grab.axis] ?? [0, 1, 0]);
+  const begun: Pull = { grab, direction, layer: null };
+  pull.value = begun;
+
+  const seed = seedOfGrab(model.shape, grab);
+  const last = activeLayers(document.peek()).at(-1);
+  const seeds = last?.layer.statements.filter(({ why }) => why?.kind === 'seed') ?? [];
+  if (last !== undefined && seeds.length === 1 && seeds[0] !== undefined && sameEdit(seeds[0], seed)) {
+    pull.value = { ...begun, layer: follow(last.key, index, grab.feature, direction, seed) };
+    return true;
+  }
+  abort = new AbortController();
+  const { signal: cancelled } = abort;
+  try {
+    const found = await core.propagate(model, { seed: [seed], disabled: [], hints: {} }, { signal: cancelled });
+    if (pull.peek() !== begun || document.peek().model !== model) return false;
+    const [entry] = entriesOf({ ...found, program: withRequest(found.program, request) }) ?? [];
+    if (entry === undefined) throw new Error('Nothing came of it');
+    draft.value = entry;
+    pull.value = { ...begun, layer: follow(entry.key, index, grab.feature, direction, seed) };
+    return true;
+  } catch (error) {
+    if (pull.peek() !== begun) return false;
+    pull.value = null;
+    if (!cancelled.aborted) say(sentence(error), 'error');
+    return false;
+  } finally {
+    if (abort?.signal === cancelled) abort = null;
+  }
+}
+
+/** The layer that the hand moves: how far the grabbed point goes for a step of its slider is read off the shape. */
+function follow(key: number, part: number, feature: LocalTriple, direction: Vec3, seed: Statement): Pull['layer'] {
+  const state = compiled.peek();
+  const entry = entryOf(key);
+  const { shape } = document.peek().model ?? {};
+  if (state.kind !== 'ready' || !entry || shape === undefined) return null;
+  const { min, max } = entry.layer.parameter;
+  const start = sliderValue(entry);
+  const measure = measureOf(shape, seed);
+  const before = measure?.read(state.evaluator) ?? 0;
+  const from = pointIn(state.evaluator.corners, part, feature);
+  const step = (max - min) / 1000;
+  const there = start + step <= max ? start + step : start - step;
+  slide(key, there);
+  const to = pointIn(state.evaluator.corners, part, feature);
+  slide(key, start);
+  const moved = to.map((value, i) => value - (from[i] ?? 0)) as unknown as Vec3;
+  return { key, start, min, max, gain: dot(moved, direction) / (there - start), measure, before };
+}
+
+/** Moves the grabbed point to a distance from where it was, along the pull's direction; as far as the layer goes. */
+export function pullTo(distance: number): void {
+  const layer = pull.peek()?.layer;
+  if (!layer || Math.abs(layer.gain) < 1e-6) return;
+  slide(layer.key, layer.start + distance / layer.gain);
+}
+
+/** By keyboard: hundredths of the range, outwards. */
+export function pullBy(steps: number): void {
+  const layer = pull.peek()?.layer;
+  const entry = layer && entryOf(layer.key);
+  if (layer && entry)
+    slide(layer.key, sliderValue(entry) + (steps * Math.sign(layer.gain) * (layer.max - layer.min)) / 100);
+}
+
+/** Lets go: what was pulled becomes a layer, or the new value of one. Answers its key; null when nothing had moved. */
+export function endPull(): number | null {
+  const layer = pull.peek()?.layer;
+  const pulled = draft.peek();
+  if (!layer) {
+    cancelPull();
+    return null;
+  }
+  pull.value = null;
+  if (pulled === null) settle(layer.key);
+  else if (sliderValue(pulled) === layer.start) draft.value = null;
+  else return keepDraft();
+  return pulled === null ? layer.key : null;
+}
+
+/** Leaves everything as it was before the pull. */
+export function cancelPull(): void {
+  const layer = pull.peek()?.layer;
+  abort?.abort();
+  abort = null;
+  pull.value = null;
+  if (draft.peek() !== null) draft.value = null;
+  else if (layer) slide(layer.key, layer.start);
+}

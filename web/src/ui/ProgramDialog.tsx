@@ -1,0 +1,149 @@
+// A layer, or a whole program from elsewhere, as text: to read, copy, change and take over.
+import { useComputed, useSignal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
+import { programText } from '../program/text';
+import { checkProgramText, type TextError } from '../program/text_check';
+import type { Layer } from '../program/types';
+import { programOf, withFreshParameters } from '../session/document';
+import { playOnce } from '../session/play';
+import { addProgram, document, entryOf, rewriteLayer, titleOf } from '../session/session';
+import { dialog, textOf } from './actions';
+import { Dialog } from './Dialog';
+import { Icon } from './Icon';
+
+const largestFile = 8 * 2 ** 20;
+
+export function ProgramDialog() {
+  const { model } = document.value;
+  const entry = textOf.value === null ? undefined : entryOf(textOf.value);
+  const original = model && entry ? programText(programOf(model.shape, [entry])) : '';
+  const text = useSignal(original);
+  const copied = useSignal(false);
+  const wrong = useSignal('');
+  const field = useRef<HTMLTextAreaElement>(null);
+  const read = useComputed(() => {
+    const { shape } = document.value.model ?? {};
+    return shape && text.value.trim() !== '' ? checkProgramText(text.value, shape) : null;
+  });
+  if (model === null) return null;
+  const isNew = entry === undefined;
+  const layers = read.value?.ok ? read.value.value.program.layers : [];
+  const tooMany = !isNew && read.value?.ok && layers.length !== 1;
+  const error = read.value && !read.value.ok ? (read.value.error as TextError) : null;
+  const ready = layers.length > 0 && !tooMany && (isNew || text.value !== original);
+
+  const close = () => {
+    dialog.value = null;
+  };
+  const apply = () => {
+    const [layer] = layers;
+    if (!ready || layer === undefined || !read.value?.ok) return;
+    close();
+    if (isNew) {
+      const keys = addProgram(read.value.value.program, 'add from text');
+      if (keys?.[0] !== undefined) playOnce(keys[0]);
+    } else rewriteLayer(entry.key, ownName(layer, entry.layer, entry.key));
+  };
+  const copy = async () => {
+    try {
+      await navigator.clipboard.writeText(text.value);
+      copied.value = true;
+    } catch {
+      field.current?.select(); // no permission: the text is ready for Ctrl+C
+    }
+  };
+  const goTo = ({ line, column }: TextError) => {
+    const before = text.value.split('\n').slice(0, line - 1);
+    const at = before.reduce((sum, content) => sum + content.length + 1, 0) + column - 1;
+    field.current?.focus();
+    field.current?.setSelectionRange(at, at + 1);
+  };
+  const load = async (file: File | undefined) => {
+    if (file === undefined) return;
+    wrong.value = file.size > largestFile ? `${file.name} is too large for a program.` : '';
+    if (wrong.value !== '') return;
+    const content = await file.text();
+    text.value = fromJson(content) ?? content;
+  };
+  return (
+    <Dialog title={isNew ? 'Add edits from text' : `${titleOf(entry.layer)}, as text`} class="text" onClose={close}>
+      <p class="quiet">
+        {isNew
+          ? 'Paste a program, or open its file (.txt or .json). Its edits are added behind those that are there.'
+          : 'One statement a line. Amounts are formulas of the slider, named after “layer”.'}
+      </p>
+      <textarea
+        ref={field}
+        class="program"
+        spellcheck={false}
+        autocapitalize="off"
+        rows={16}
+        wrap="off"
+        aria-label="Program"
+        aria-invalid={error !== null}
+        aria-describedby="program-error"
+        value={text.value}
+        onInput={(event) => {
+          text.value = event.currentTarget.value;
+          copied.value = false;
+        }}
+      />
+      <p id="program-error" class="program-state" role="status">
+        {wrong.value && <span class="error">{wrong.value}</span>}
+        {error && (
+          <button type="button" class="line error" onClick={() => goTo(error)}>
+            <Icon name="warning" /> Line {error.line}, column {error.column}: {error.cause}; {error.fix}.
+          </button>
+        )}
+        {tooMany && <span class="error">There should be one layer here. Add others by “Add from text”.</span>}
+        {layers.length > 0 && !tooMany && <span class="quiet">{countWords(layers)}, all of it fits this model.</span>}
+      </p>
+      <div class="row end">
+        {isNew ? (
+          <label class="button file">
+            From a file…
+            <input
+              type="file"
+              class="visually-hidden"
+              aria-label="Program from a file"
+              accept=".txt,.json,.parsel"
+              onChange={(event) => void load(event.currentTarget.files?.[0])}
+            />
+          </label>
+        ) : (
+          <button type="button" class="button" onClick={copy}>
+            {copied.value ? 'Copied' : 'Copy'}
+          </button>
+        )}
+        <button type="button" class="button primary" disabled={!ready} onClick={apply}>
+          {isNew ? 'Add' : 'Apply'}
+        </button>
+      </div>
+    </Dialog>
+  );
+}
+
+const plural = (count: number, word: string) => `${count} ${word}${count === 1 ? '' : 's'}`;
+
+function countWords(layers: readonly Layer[]): string {
+  const statements = layers.reduce((sum, layer) => sum + layer.statements.length, 0);
+  return `${layers.length === 1 ? '' : `${layers.length} edits, `}${plural(statements, 'statement')}`;
+}
+
+/** The layer under a parameter name that no other layer has; without reports that its new statements have not earned. */
+function ownName(layer: Layer, before: Layer, key: number): Layer {
+  const others = document.peek().layers.filter((entry) => entry.key !== key);
+  const taken = new Set(others.map((entry) => entry.layer.parameter.name));
+  const [named = layer] = withFreshParameters([layer], taken);
+  const same = JSON.stringify(layer.statements) === JSON.stringify(before.statements);
+  return { ...named, relations: same ? named.relations : [] };
+}
+
+/** The text form of a program in JSON; null for what is none. */
+function fromJson(content: string): string | null {
+  try {
+    return programText(JSON.parse(content));
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,167 @@
+// A walk through the page in a few steps: offered at the first visit, started again from the help menu, left at any time.
+import { signal, useSignal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import { document } from '../session/session';
+import { Icon } from './Icon';
+
+const storageKey = 'parsel-tour';
+
+const wasOffered = (): boolean => {
+  try {
+    return localStorage.getItem(storageKey) !== null;
+  } catch {
+    return true; // storage is closed to us: do not offer it at every visit
+  }
+};
+
+/** Number of the step that is shown, or null. */
+const step = signal<number | null>(null);
+const offered = signal(wasOffered());
+
+function settleOffer(): void {
+  offered.value = true;
+  try {
+    localStorage.setItem(storageKey, 'seen');
+  } catch {
+    // it is offered again at the next visit, then
+  }
+}
+
+export function startTour(): void {
+  settleOffer();
+  step.value = 0;
+}
+
+/** At the first visit, once there is a model: a line that asks, and never asks again. */
+export function TourOffer() {
+  if (offered.value || step.value !== null || document.value.model === null) return null;
+  return (
+    <section class="panel note tour-offer" aria-label="Tour">
+      <span>New here?</span>
+      <button type="button" class="button" onClick={startTour}>
+        Show me around
+      </button>
+      <button type="button" class="button icon-only" aria-label="No tour" onClick={settleOffer}>
+        <Icon name="close" />
+      </button>
+    </section>
+  );
+}
+
+interface Step {
+  /** What it is about: the first of these that is on the page. */
+  readonly at: readonly string[];
+  readonly title: string;
+  readonly text: string;
+}
+
+const steps: readonly Step[] = [
+  {
+    at: ['.stage'],
+    title: 'Click a part, pull a handle',
+    text: 'A dot pulls a face, the middle moves the part. Everything that is joined to it follows while you pull.',
+  },
+  {
+    at: ['.composer', '.suggestions', '.hand-buttons', '.tabs'],
+    title: 'Or say what to change',
+    text: 'Pick one of the suggestions for this model, or set an edit up by hand: operator, direction, what may give way.',
+  },
+  {
+    at: ['.card', '.side.right', '.tabs'],
+    title: 'Every change is a slider',
+    text: 'Drag it, type a length, double-click to go back. Below it stands what the change keeps, and why each part moves.',
+  },
+  {
+    at: ['.side.left', '.tabs'],
+    title: 'The parts',
+    text: 'Select, hide, rename and label them. A selected part tells what holds it and why it moved.',
+  },
+  {
+    at: ['.bar'],
+    title: 'Yours to take',
+    text: 'Undo anything. Share a link with the sliders in it, or export the model with its own names and materials.',
+  },
+];
+
+const gap = 12;
+
+export function Tour() {
+  const box = useRef<HTMLDivElement>(null);
+  const next = useRef<HTMLButtonElement>(null);
+  const ring = useSignal<{ left: number; top: number; width: number; height: number } | null>(null);
+  const at = step.value;
+  const shown = at === null ? undefined : steps[at];
+
+  useEffect(() => {
+    if (shown === undefined) return;
+    const place = () => {
+      const target = shown.at.map((selector) => globalThis.document.querySelector(selector)).find(Boolean);
+      const card = box.current;
+      if (!target || !card) return;
+      const isStage = target.matches('.stage');
+      const { left, top, right, bottom, width, height } = target.getBoundingClientRect();
+      ring.value = isStage ? null : { left: left - 4, top: top - 4, width: width + 8, height: height + 8 };
+      const middle = isStage ? innerWidth / 2 : (left + right) / 2;
+      const beside = width < innerWidth / 2;
+      let x = middle - card.offsetWidth / 2;
+      let y = isStage ? innerHeight * 0.68 : bottom + gap;
+      if (!isStage && beside) {
+        x = middle < innerWidth / 2 ? right + gap : left - gap - card.offsetWidth;
+        y = top;
+      } else if (!isStage && bottom + gap + card.offsetHeight > innerHeight) y = top - gap - card.offsetHeight;
+      const keep = (value: number, room: number) => Math.min(Math.max(gap, value), Math.max(gap, room - gap));
+      card.style.left = `${keep(x, innerWidth - card.offsetWidth)}px`;
+      card.style.top = `${keep(y, innerHeight - card.offsetHeight)}px`;
+    };
+    place();
+    next.current?.focus();
+    addEventListener('resize', place);
+    return () => removeEventListener('resize', place);
+  }, [shown, ring]);
+
+  if (at === null || shown === undefined) return null;
+  const go = (to: number) => {
+    step.value = to < 0 ? 0 : to < steps.length ? to : null;
+  };
+  return (
+    <>
+      {ring.value && <div class="tour-ring" style={ring.value} />}
+      <div
+        class="panel tour"
+        role="dialog"
+        aria-label={`Tour, ${at + 1} of ${steps.length}: ${shown.title}`}
+        aria-describedby="tour-text"
+        ref={box}
+        onKeyDown={(event) => {
+          if (event.key === 'Escape') step.value = null;
+          else if (event.key === 'ArrowRight') go(at + 1);
+          else if (event.key === 'ArrowLeft') go(at - 1);
+          else return;
+          event.preventDefault();
+          event.stopPropagation();
+        }}
+      >
+        <h2>{shown.title}</h2>
+        <p id="tour-text">{shown.text}</p>
+        <div class="row">
+          <span class="quiet grow">
+            {at + 1} of {steps.length}
+          </span>
+          {at + 1 < steps.length && (
+            <button type="button" class="button" onClick={() => (step.value = null)}>
+              Skip
+            </button>
+          )}
+          {at > 0 && (
+            <button type="button" class="button" onClick={() => go(at - 1)}>
+              Back
+            </button>
+          )}
+          <button type="button" class="button primary" ref={next} onClick={() => go(at + 1)}>
+            {at + 1 < steps.length ? 'Next' : 'Done'}
+          </button>
+        </div>
+      </div>
+    </>
+  );
+}
