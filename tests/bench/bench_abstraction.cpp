@@ -7,16 +7,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/shape/abstraction.h"
 #include "core/shape/gltf_import.h"
 #include "tests/core/glb_fixture.h"
+#include "tests/core/real_models.h"
 
 namespace {
 
@@ -103,19 +100,6 @@ void measure(const std::string& name, const std::string& bytes) {
 int main() {
   measure("fence_20_parts_100k", fixture::model(fence(20, 5120)));
   measure("fence_100_parts_100k", fixture::model(fence(100, 1088)));
-  if (const char* data = std::getenv("PARSEL_DATA")) {
-    std::set<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(std::string(data) + "/furniture")) {
-      if (entry.path().extension() == ".glb") files.insert(entry.path());
-    }
-    for (const auto& path : files) {
-      std::ifstream file(path, std::ios::binary);
-      std::ostringstream bytes;
-      bytes << file.rdbuf();
-      measure(path.stem().string(), bytes.str());
-    }
-  } else {
-    std::fprintf(stderr, "PARSEL_DATA is not set: only generated models are measured\n");
-  }
+  for (const auto& path : test::real_models("furniture")) measure(path.stem().string(), test::read_bytes(path));
   return 0;
 }

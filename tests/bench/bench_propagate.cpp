@@ -5,16 +5,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/gallery/gallery.h"
 #include "core/propagate/propagate.h"
 #include "core/shape/abstraction.h"
+#include "tests/core/real_models.h"
 
 using namespace parsel;
 
@@ -76,22 +74,9 @@ EditRequest widen(const Shape& shape) {
 }
 
 void furniture_widened() {
-  const char* data = std::getenv("PARSEL_DATA");
-  if (data == nullptr) {
-    std::fprintf(stderr, "furniture is skipped: PARSEL_DATA is not set\n");
-    return;
-  }
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(data) / "furniture")) {
-    files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
   std::vector<double> all;
-  for (const auto& path : files) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << file.rdbuf();
-    const auto abstraction = abstract_shape(bytes.str(), path.stem().string());
+  for (const auto& path : test::real_models("furniture")) {
+    const auto abstraction = abstract_shape(test::read_bytes(path), path.stem().string());
     if (!abstraction.ok()) continue;
     all.push_back(median_ms(abstraction->shape, widen(abstraction->shape), 5));
     std::printf("propagate,%s/widen,ms,%.3f\n", path.stem().c_str(), all.back());

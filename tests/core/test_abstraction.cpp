@@ -1,16 +1,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include "core/base/random.h"
 #include "core/shape/words.h"
+#include "tests/core/real_models.h"
 #include "tests/core/shape_fixture.h"
 
 using namespace parsel;
@@ -134,23 +131,13 @@ TEST_CASE("boxes of parts tied by symmetry are exact images even when the meshes
 }
 
 TEST_CASE("real furniture: no failure, every part in the graph, one piece") {
-  const char* data = std::getenv("PARSEL_DATA");
-  if (data == nullptr) {
-    MESSAGE("skipped: PARSEL_DATA is not set");
-    return;
-  }
-  std::set<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(data) + "/furniture")) {
-    if (entry.path().extension() == ".glb") files.insert(entry.path());
-  }
+  const auto files = test::real_models("furniture");
+  if (files.empty()) return;
   CHECK(files.size() == 20);
   double parts = 0, attachments = 0;
   for (const auto& path : files) {
     CAPTURE(path.filename().string());
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << file.rdbuf();
-    const Abstraction result = fixture::abstraction(bytes.str(), path.stem().string());
+    const Abstraction result = fixture::abstraction(test::read_bytes(path), path.stem().string());
     const Shape& shape = result.shape;
     CHECK(shape.warnings.empty());
     CHECK(components(shape) == 1);

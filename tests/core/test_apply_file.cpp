@@ -1,14 +1,9 @@
 // Files that are damaged or not what they claim to be: refused or read, never a crash (run under sanitizers).
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <sstream>
-
 #include "core/base/random.h"
 #include "tests/core/apply_fixture.h"
+#include "tests/core/real_models.h"
 
 using namespace parsel;
 using namespace parsel::apply_fixture;
@@ -132,27 +127,20 @@ TEST_CASE("apply: states that are not of the shape are refused") {
 }
 
 TEST_CASE("apply: the odd files of the Khronos validator are refused or pass through unchanged") {
-  const char* data = std::getenv("PARSEL_DATA");
-  if (data == nullptr) {
-    std::cout << "skipped: PARSEL_DATA is not set\n";
-    return;
-  }
+  const auto paths = test::real_models("khronos-validator");
+  if (paths.empty()) return;
   std::size_t files = 0, passed = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(data) + "/khronos-validator")) {
-    const std::string extension = entry.path().extension().string();
-    if (extension != ".gltf" && extension != ".glb") continue;
-    std::ifstream stream(entry.path(), std::ios::binary);
-    std::stringstream bytes;
-    bytes << stream.rdbuf();
+  for (const auto& path : paths) {
+    const std::string bytes = test::read_bytes(path);
     ++files;
     // Nodes 0 and 1 of whatever it is, edited.
     const Everything model;
-    static_cast<void>(apply_state(bytes.str(), model.shape, model.state));
-    const auto out = apply_state(bytes.str(), Shape{}, State{});
+    static_cast<void>(apply_state(bytes, model.shape, model.state));
+    const auto out = apply_state(bytes, Shape{}, State{});
     if (!out.ok()) continue;
     ++passed;
     CHECK(out->glb.substr(0, 4) == "glTF");
-    if (extension == ".glb") CHECK(out->glb == bytes.str());
+    if (path.extension() == ".glb") CHECK(out->glb == bytes);
   }
   CHECK(files > 300);
   CHECK(passed > 100);

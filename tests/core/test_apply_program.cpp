@@ -1,15 +1,10 @@
 // Programs applied to files, read back by the importer: what the patcher writes is what the evaluator says.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <sstream>
-
 #include "core/shape/abstraction.h"
 #include "core/shape/gltf_import.h"
 #include "tests/core/apply_fixture.h"
+#include "tests/core/real_models.h"
 
 using namespace parsel;
 using namespace parsel::apply_fixture;
@@ -116,19 +111,15 @@ TEST_CASE("apply: values and parameters that the program does not have are refus
 }
 
 TEST_CASE("apply: furniture, edited and read back") {
-  const char* data = std::getenv("PARSEL_DATA");
-  if (data == nullptr) {
-    std::cout << "skipped: PARSEL_DATA is not set\n";
-    return;
-  }
-  for (const char* name : {"table_lack_0825", "desk_fredrik_0430", "bookcase_expedit_0376", "bench_bjursta_0210"}) {
-    std::ifstream stream(std::string(data) + "/furniture/" + name + ".glb", std::ios::binary);
-    std::stringstream bytes;
-    bytes << stream.rdbuf();
-    const Abstraction model = abstracted(bytes.str());
+  const std::set<std::string> wanted = {"table_lack_0825", "desk_fredrik_0430", "bookcase_expedit_0376",
+                                        "bench_bjursta_0210"};
+  for (const auto& path : test::real_models("furniture")) {
+    if (wanted.count(path.stem().string()) == 0) continue;
+    const std::string bytes = test::read_bytes(path);
+    const Abstraction model = abstracted(bytes);
     const Program program = busy_program(model.shape);
-    CHECK(apply_program(bytes.str(), model.shape, program, {0})->glb == bytes.str());
-    const auto out = apply_program(bytes.str(), model.shape, program, {0.25});
+    CHECK(apply_program(bytes, model.shape, program, {0})->glb == bytes);
+    const auto out = apply_program(bytes, model.shape, program, {0.25});
     REQUIRE(out.ok());
     CHECK(error_of(out->glb, model, Evaluator(program, model.shape)({0.25})) < 1e-6);
   }

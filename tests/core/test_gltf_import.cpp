@@ -1,29 +1,20 @@
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <limits>
-#include <sstream>
 #include <string>
 
 #include "core/base/uri.h"
 #include "core/shape/abstraction.h"
 #include "core/shape/gltf_import.h"
 #include "tests/core/glb_fixture.h"
+#include "tests/core/real_models.h"
 
 using namespace parsel;
 using nlohmann::json;
 
 namespace {
-
-std::string read(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return std::move(bytes).str();
-}
 
 /// The refusal of a document after a change, "" when it is read.
 std::string refusal(const std::function<void(fixture::Document&)>& change) {
@@ -272,7 +263,7 @@ TEST_CASE("ten thousand nodes, side by side or in one chain, are read; too many 
 TEST_CASE("the fuzzer's corpus is read or refused") {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(PARSEL_TESTS_DIR "/fuzz/corpus/gltf_import")) {
-    const Result<Abstraction> abstraction = abstract_shape(read(entry.path()), "corpus");
+    const Result<Abstraction> abstraction = abstract_shape(test::read_bytes(entry.path()), "corpus");
     if (abstraction.ok()) CHECK_MESSAGE(validate(abstraction->shape).ok(), entry.path().string());
     ++files;
   }
@@ -280,30 +271,25 @@ TEST_CASE("the fuzzer's corpus is read or refused") {
 }
 
 TEST_CASE("every file of the Khronos validator's tests is read or refused by name") {
-  const char* data = std::getenv("PARSEL_DATA");
-  if (data == nullptr) {
-    MESSAGE("skipped: PARSEL_DATA is not set");
-    return;
-  }
+  const auto paths = test::real_models("khronos-validator");
+  if (paths.empty()) return;
   std::size_t read_files = 0, refused = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(data) + "/khronos-validator")) {
-    const std::string extension = entry.path().extension().string();
-    if (extension != ".gltf" && extension != ".glb") continue;
-    const std::string bytes = read(entry.path());
+  for (const auto& path : paths) {
+    const std::string bytes = test::read_bytes(path);
     ExternalBuffers buffers;
     for (const std::string& uri : external_buffer_uris(bytes)) {
-      const auto file = entry.path().parent_path() / uri;
+      const auto file = path.parent_path() / uri;
       std::error_code error;
-      if (std::filesystem::is_regular_file(file, error)) buffers[uri] = read(file);
+      if (std::filesystem::is_regular_file(file, error)) buffers[uri] = test::read_bytes(file);
     }
-    const Result<Abstraction> abstraction = abstract_shape(bytes, entry.path().stem().string(), buffers);
+    const Result<Abstraction> abstraction = abstract_shape(bytes, path.stem().string(), buffers);
     if (abstraction.ok()) {
       ++read_files;
       const Status sound = validate(abstraction->shape);
-      CHECK_MESSAGE(sound.ok(), entry.path().string());
+      CHECK_MESSAGE(sound.ok(), path.string());
     } else {
       ++refused;
-      CHECK_MESSAGE(!abstraction.error().cause.empty(), entry.path().string());
+      CHECK_MESSAGE(!abstraction.error().cause.empty(), path.string());
     }
   }
   MESSAGE("read " << read_files << ", refused " << refused);

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/edit/evaluate.h"
 #include "core/propagate/check.h"
 #include "core/propagate/propagate.h"
 #include "core/shape/abstraction.h"
+#include "tests/core/real_models.h"
 
 using namespace parsel;
 using nlohmann::json;
@@ -45,25 +42,13 @@ json scale(const Part& part, const std::vector<int>& at, const std::vector<int>&
 }  // namespace
 
 TEST_CASE("real furniture: widened, raised and with one part moved, nothing fails and nothing turns inside out") {
-  const char* data = std::getenv("PARSEL_DATA");
-  if (data == nullptr) {
-    MESSAGE("skipped: PARSEL_DATA is not set");
-    return;
-  }
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(data) / "furniture")) {
-    if (entry.path().extension() == ".glb") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  REQUIRE(!files.empty());
+  const auto files = test::real_models("furniture");
+  if (files.empty()) return;
   std::printf("%-24s %-6s %5s %5s %7s %7s %5s/%-5s %s\n", "model", "edit", "parts", "moves", "min", "max", "held",
               "all", "certified");
   int held = 0, all = 0, certified = 0;
   for (const auto& path : files) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << file.rdbuf();
-    const auto abstraction = abstract_shape(bytes.str(), path.stem().string());
+    const auto abstraction = abstract_shape(test::read_bytes(path), path.stem().string());
     REQUIRE(abstraction.ok());
     const Shape& shape = abstraction->shape;
     const Part& wide = shape.parts[longest_part(shape, 0)];
