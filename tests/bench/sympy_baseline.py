@@ -332,6 +332,11 @@ def main():
         shape = json.load(file)
     with open(options.edit, encoding="utf-8") as file:
         edit = json.load(file)
+    nodes = {f"node:{p['node']}": p["id"] for p in shape["parts"] if not p["virtual"]}
+    for statement in edit["seed"]:  # a part may be named by its node
+        for owner in (statement, *(v for v in statement.values() if isinstance(v, dict))):
+            if "part" in owner:
+                owner["part"] = nodes.get(owner["part"], owner["part"])
     baseline = Baseline(shape, edit, options)
     baseline.run()
     case = f"{shape['name']}/{options.edit.rsplit('/', 1)[-1].removesuffix('.json')}"
