@@ -54,6 +54,30 @@ describe('the boundary between the page and the core', () => {
     expect(Buffer.from(edited.buffers[0] as Uint8Array).equals(Buffer.from(file))).toBe(false);
   });
 
+  it('makes prompts of a request and reads the replies', () => {
+    const { buffers } = invoke('gallery', {});
+    invoke('open', { name: 'chair', external: [] }, [buffers[0] as Uint8Array]);
+    const asked = invoke('prompts', { request: 'let the seat be shallower', mentioned: ['seat'] });
+    const { prompts, schemas } = v.parse(methodSchemas.prompts.result, (asked.message as { result: unknown }).result);
+    expect(Object.keys(schemas).sort()).toEqual([...new Set(prompts.map(({ task }) => task))].sort());
+    const fenced = (block: unknown) => `Well.\n\`\`\`json\n${JSON.stringify(block)}\n\`\`\``;
+    const seed = { op: 'scale_1d', part: 'seat', direction: [0, 0, 1], amount: '-x' };
+    const replies = prompts.map(({ task, relation }) => ({
+      task,
+      relation,
+      texts: [
+        fenced(task === 'seed_edit' ? { edits: [seed] } : task === 'type_hints' ? { hints: {} } : { keep: true }),
+        '?',
+      ],
+    }));
+    const read = invoke('read_replies', { request: 'let the seat be shallower', replies });
+    const inference = v.parse(methodSchemas.read_replies.result, (read.message as { result: unknown }).result);
+    expect(inference.seed).toMatchObject({ outcome: 'decided', of: 1, reason: null });
+    expect(inference.refused).toHaveLength(prompts.length);
+    expect(inference.relations.every(({ keep }) => keep)).toBe(true);
+    expect(invoke('propagate', { edit: inference.edit }).message).toHaveProperty('result.program');
+  });
+
   it('answers with the version of the project', async () => {
     const cmake = await readFile(fileURLToPath(new URL('../../CMakeLists.txt', import.meta.url)), 'utf8');
     expect(invoke('version', {}).message).toEqual({ result: { version: cmake.match(/VERSION (\d+\.\d+\.\d+)/)?.[1] } });
@@ -74,6 +98,8 @@ describe('the boundary between the page and the core', () => {
     ['an edit of no kind', 'propagate', { edit: 7 }],
     ['a program of no kind', 'apply', { program: {}, values: [] }],
     ['a model that is none', 'open', { name: 'x', external: [] }],
+    ['a request that is empty', 'prompts', { request: ' ', mentioned: [] }],
+    ['replies of no kind', 'read_replies', { request: 'x', replies: 7 }],
     ['a missing parameter', 'solve', { equation: '2*y' }],
     ['a parameter of another type', 'solve', { equation: 7, unknown: 'y' }],
   ])('answers %s with an error value', (_, method, parameters) => {
