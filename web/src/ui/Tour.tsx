@@ -88,7 +88,7 @@ const gap = 12;
 export function Tour() {
   const box = useRef<HTMLDivElement>(null);
   const next = useRef<HTMLButtonElement>(null);
-  const ring = useSignal<{ left: number; top: number; width: number; height: number } | null>(null);
+  const ring = useSignal<Record<'left' | 'top' | 'width' | 'height', string> | null>(null);
   const at = step.value;
   const shown = at === null ? undefined : steps[at];
 
@@ -100,7 +100,9 @@ export function Tour() {
       if (!target || !card) return;
       const isStage = target.matches('.stage');
       const { left, top, right, bottom, width, height } = target.getBoundingClientRect();
-      ring.value = isStage ? null : { left: left - 4, top: top - 4, width: width + 8, height: height + 8 };
+      ring.value = isStage
+        ? null
+        : { left: `${left - 4}px`, top: `${top - 4}px`, width: `${width + 8}px`, height: `${height + 8}px` };
       const middle = isStage ? innerWidth / 2 : (left + right) / 2;
       const beside = width < innerWidth / 2;
       let x = middle - card.offsetWidth / 2;
