@@ -70,6 +70,11 @@ export function Handles() {
         translate: `${x}px ${y}px`,
         visibility: isBehind && pull.peek() === null ? 'hidden' : 'visible',
       });
+      const reading = button.querySelector<HTMLElement>('.reading');
+      if (reading) {
+        const room = reading.offsetWidth / 2 + 8;
+        reading.style.translate = `${Math.min(innerWidth - room, Math.max(room, x)) - x}px`;
+      }
     }
   };
   useEffect(() => {

@@ -178,7 +178,6 @@ function Statements({ statements }: { statements: readonly Statement[] }) {
       </summary>
       <ol>
         {statements.map((statement, i) => (
-          // biome-ignore lint/suspicious/noArrayIndexKey: statements have no other identity, and never change in place
           <StatementLine key={i} statement={statement} />
         ))}
       </ol>

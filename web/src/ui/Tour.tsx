@@ -1,6 +1,6 @@
 // A walk through the page in a few steps: offered at the first visit, started again from the help menu, left at any time.
 import { signal, useSignal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import { document } from '../session/session';
 import { Icon } from './Icon';
 
@@ -92,7 +92,7 @@ export function Tour() {
   const at = step.value;
   const shown = at === null ? undefined : steps[at];
 
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (shown === undefined) return;
     const place = () => {
       const target = shown.at.map((selector) => globalThis.document.querySelector(selector)).find(Boolean);
