@@ -59,9 +59,17 @@ describe.each([
     const states: [string, () => Promise<unknown>][] = [
       ['main', async () => page.locator('summary').first().click()],
       ['hand', async () => page.getByRole('button', { name: 'Edit by hand' }).click()],
+      ['selected', async () => page.evaluate(() => parsel.select('seat'))],
       ['export', async () => page.getByRole('button', { name: 'Export' }).click()],
       ['open', async () => page.locator('.bar .model').click()],
       ['share', async () => page.getByRole('button', { name: 'Share' }).click()],
+      [
+        'text',
+        async () => {
+          await page.getByRole('button', { name: 'More about' }).first().click();
+          await page.getByRole('menuitem', { name: 'Show as text' }).click();
+        },
+      ],
       ['help', async () => page.keyboard.press('?')],
     ];
     const found: string[] = [];
@@ -70,7 +78,7 @@ describe.each([
       await page.waitForTimeout(200);
       found.push(...(await serious(page)).map((text) => `${name}: ${text}`));
       await page.screenshot({ path: `${outputFolder}/${name}-${colorScheme}-${viewport.width}.png` });
-      if (name !== 'main' && name !== 'hand') await page.keyboard.press('Escape');
+      if (!['main', 'hand', 'selected'].includes(name)) await page.keyboard.press('Escape');
     }
     expect(found).toEqual([]);
     expect(complaints).toEqual([]);

@@ -2,12 +2,14 @@
 import type { Evaluator, GroupView } from '../program/compile';
 import type { Shape } from '../program/types';
 
+const reach = 0.6;
+
 /** What is drawn of an evaluator. */
 export type State = Pick<Evaluator, 'corners' | 'groups'>;
 
 /**
- * A state whose parts and instances stand (1 + amount) times as far from the middle of the shape as they do.
- * @param amount 0 … 1
+ * A state whose parts and instances stand farther from the middle of the shape than they do.
+ * @param amount 0 … 1: as they are … 1 + reach times as far
  */
 export function explode(shape: Shape, { corners, groups }: State, amount: number): State {
   const middle = [0, 0, 0];
@@ -38,7 +40,7 @@ function apart(corners: Float64Array, boxes: number, middle: readonly number[], 
       let centre = 0;
       for (let i = axis; i < 24; i += 3) centre += (corners[at + i] ?? 0) / 8;
       for (let i = axis; i < 24; i += 3)
-        moved[at + i] = (corners[at + i] ?? 0) + amount * (centre - (middle[axis] ?? 0));
+        moved[at + i] = (corners[at + i] ?? 0) + amount * reach * (centre - (middle[axis] ?? 0));
     }
   }
   return moved;

@@ -41,6 +41,8 @@ export interface LayerEntry {
   readonly value: number;
   /** How propagation found it. Lasts as long as the page: neither links nor autosave keep it. */
   readonly trace?: Trace;
+  /** What the layer was where it last fitted, while labels have taken that shape away. Lasts as long as the page. */
+  readonly home?: { readonly shape: Shape; readonly layer: Layer };
 }
 
 export interface Document {

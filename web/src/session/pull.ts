@@ -2,6 +2,7 @@
 // and from then on the hand moves the slider of the layer that came of it, so that the whole shape follows at every
 // frame. Letting go keeps the layer, Escape leaves everything as it was.
 import { signal } from '@preact/signals';
+import { statementText } from '../program/text';
 import type { Axis, LocalTriple, Shape, ShapePart, Statement, Vec3 } from '../program/types';
 import { withRequest } from './document';
 import { type Measure, measureOf, pointIn } from './measure';
@@ -97,11 +98,11 @@ export function seedOfGrab(shape: Shape, { part: id, feature, axis, oneSided }: 
   return { op: 'scale_1d', part: id, feature: [0, 0, 0], origin: { part: id, at }, direction, amount };
 }
 
-const sameEdit = (a: Statement, b: Statement) => {
-  const plain = ({ why, ...statement }: Statement) => ({ ...statement, amount: '' });
-  const sorted = (value: object) => JSON.stringify(Object.entries(value).sort(([m], [n]) => (m < n ? -1 : 1)));
-  return sorted(plain(a)) === sorted(plain(b));
-};
+/** Whether two statements do the same, each by an amount of its own. */
+function isSameEdit(a: Statement, b: Statement): boolean {
+  const [m, n] = [a, b].map((statement) => statementText({ ...statement, amount: '' } as Statement, { why: false }));
+  return m === n;
+}
 
 let abort: AbortController | null = null;
 
@@ -120,7 +121,7 @@ export async function beginPull(core: ModelCore, grab: Grab, request: string): P
   const seed = seedOfGrab(model.shape, grab);
   const last = activeLayers(document.peek()).at(-1);
   const seeds = last?.layer.statements.filter(({ why }) => why?.kind === 'seed') ?? [];
-  if (last !== undefined && seeds.length === 1 && seeds[0] !== undefined && sameEdit(seeds[0], seed)) {
+  if (last !== undefined && seeds.length === 1 && seeds[0] !== undefined && isSameEdit(seeds[0], seed)) {
     pull.value = { ...begun, layer: follow(last.key, index, grab.feature, direction, seed) };
     return true;
   }

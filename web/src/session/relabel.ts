@@ -1,32 +1,37 @@
 // The work on a model whose shape was abstracted anew: the parts are the same, their ids and the relations may be others.
 import type { DirectionReference, Layer, PointReference, Shape, Statement } from '../program/types';
-import { type Document, type OpenModel, partKey } from './document';
+import { type Document, type LayerEntry, type OpenModel, partKey } from './document';
+import { misfit } from './session';
 
 /** The document on another shape of the same file. What has no counterpart keeps its id, so that nothing is lost. */
 export function carryOver(document: Document, model: OpenModel): Document {
   const before = document.model?.shape;
   if (before === undefined) return { ...document, model };
   const part = renaming(before, model.shape, partKeys);
-  const relation = renaming(before, model.shape, relationKeys);
-  const known = new Set(model.shape.relations.map(({ id }) => id));
-  const carryLayer = (layer: Layer): Layer => ({
-    ...layer,
-    statements: layer.statements.map((statement) => carryStatement(statement, part, relation, known)),
-    relations: layer.relations
-      .map((report) => ({ ...report, id: relation(report.id) }))
-      .filter(({ id }) => known.has(id)),
-  });
   return {
     model,
-    layers: document.layers.map(({ key, layer, enabled, value }) => ({
-      key,
-      layer: carryLayer(layer),
-      enabled,
-      value,
-    })),
+    layers: document.layers.map((entry) => carryEntry(entry, before, model.shape)),
     hidden: new Set([...document.hidden].map(part)),
     names: new Map([...document.names].map(([id, name]) => [part(id), name])),
   };
+}
+
+/** A layer that rested because it did not fit comes from the shape that it did fit, so that it can come back. */
+function carryEntry({ key, layer, enabled, value, home }: LayerEntry, before: Shape, after: Shape): LayerEntry {
+  const from = home ?? { shape: before, layer };
+  const part = renaming(from.shape, after, partKeys);
+  const relation = renaming(from.shape, after, relationKeys);
+  const known = new Set(after.relations.map(({ id }) => id));
+  const carried: Layer = {
+    ...from.layer,
+    request: layer.request,
+    statements: from.layer.statements.map((statement) => carryStatement(statement, part, relation, known)),
+    relations: from.layer.relations
+      .map((report) => ({ ...report, id: relation(report.id) }))
+      .filter(({ id }) => known.has(id)),
+  };
+  const rests = misfit(after, carried) !== null;
+  return { key, layer: carried, enabled, value, ...(rests ? { home: from } : {}) };
 }
 
 type Rename = (id: string) => string;

@@ -82,10 +82,15 @@ export function activeLayers({ model, layers }: Document): readonly LayerEntry[]
 /** A layer that is shown but no part of the work yet: what a hand is pulling. */
 export const draft = signal<LayerEntry | null>(null);
 
+/** What the evaluator's parameters belong to, in their order: the active layers and the draft. */
+export function shownLayers(): readonly LayerEntry[] {
+  return [...activeLayers(document.value), ...(draft.value === null ? [] : [draft.value])];
+}
+
 /** The program of the active layers. Compiled anew when the layers change, not when only their values do. */
 export const compiled = computed<Compiled>(() => {
   const { model } = document.value;
-  const active = [...activeLayers(document.value), ...(draft.value === null ? [] : [draft.value])];
+  const active = shownLayers();
   const structure = [model?.shape, ...active.flatMap(({ key, layer }) => [key, layer.parameter, layer.statements])];
   if (structure.length === lastStructure.length && structure.every((item, i) => item === lastStructure[i])) {
     return lastCompiled;

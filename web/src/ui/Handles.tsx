@@ -25,6 +25,22 @@ const faces: readonly LocalTriple[] = [
 const whole: LocalTriple = [0, 0, 0];
 const dragThreshold = 4; // CSS pixels
 
+interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** On a thin part the handles of its large faces would hide the one in its middle. */
+const leastDistance = matchMedia('(pointer: coarse)').matches ? 48 : 36; // CSS pixels
+
+function awayFrom(middle: Point, at: Point): Point {
+  const [x, y] = [at.x - middle.x, at.y - middle.y];
+  const distance = Math.hypot(x, y);
+  if (distance >= leastDistance) return at;
+  if (distance < 1) return { x: middle.x, y: middle.y - leastDistance };
+  return { x: middle.x + (x * leastDistance) / distance, y: middle.y + (y * leastDistance) / distance };
+}
+
 const isSame = (a: LocalTriple, b: LocalTriple) => a.join() === b.join();
 
 export function Handles() {
@@ -43,16 +59,22 @@ export function Handles() {
   const place = () => {
     const on = stage.peek();
     if (!on || on.corners.length === 0) return;
+    const middle = on.projectMean(pointIn(on.corners, part, whole));
     for (const button of root.current?.children ?? []) {
       const feature = (button as HTMLElement).dataset.feature?.split(',').map(Number) as unknown as LocalTriple;
       const point = pointIn(on.corners, part, feature);
-      const { x, y } = on.projectMean(point);
       const isFace = featureKind(feature) === 'face';
       const isBehind = isFace && !on.isFacing(point, faceNormal(on.corners, part, feature));
+      const { x, y } = isFace ? awayFrom(middle, on.projectMean(point)) : on.projectMean(point);
       Object.assign((button as HTMLElement).style, {
         translate: `${x}px ${y}px`,
         visibility: isBehind && pull.peek() === null ? 'hidden' : 'visible',
       });
+      const reading = button.querySelector<HTMLElement>('.reading');
+      if (reading) {
+        const room = reading.offsetWidth / 2 + 8;
+        reading.style.translate = `${Math.min(innerWidth - room, Math.max(room, x)) - x}px`;
+      }
     }
   };
   useEffect(() => {
@@ -101,7 +123,7 @@ interface HandleProps {
 
 function Handle({ part, id, feature, isSelected }: HandleProps) {
   const pressed = useRef<{ x: number; y: number; from: number; moving: boolean } | null>(null);
-  const latest = useRef({ x: 0, y: 0 });
+  const latest = useRef<Point>({ x: 0, y: 0 });
   const dragged = useRef(false); // the click that follows is not one
   const kind = featureKind(feature);
   const name = nameOf(document.value, id);
@@ -114,14 +136,14 @@ function Handle({ part, id, feature, isSelected }: HandleProps) {
     const request = `${kind === 'whole' ? 'Move' : 'Pull'} ${what}`;
     return beginPull(core, { part: id, feature, axis, oneSided }, request);
   };
-  const along = ({ x, y }: { x: number; y: number }, at = pull.peek()) => {
+  const along = ({ x, y }: Point, at = pull.peek()) => {
     const on = stage.peek();
     if (!on || at === null) return 0;
     return on.distanceAlong(origin.current, at.direction, x, y);
   };
   const origin = useRef<readonly [number, number, number]>([0, 0, 0]);
 
-  const start = (event: PointerEvent, from: { x: number; y: number }) => {
+  const start = (event: PointerEvent, from: Point) => {
     const on = stage.peek();
     if (!on) return;
     origin.current = pointIn(on.corners, part, feature);

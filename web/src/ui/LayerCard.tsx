@@ -19,7 +19,7 @@ import { Icon } from './Icon';
 import { Menu } from './Menu';
 import { ValueSlider } from './ValueSlider';
 import { brokenWords, inWords, whyNothingElse } from './why';
-import { capital, keptWords, relationWords, statementWords, whyWords } from './words';
+import { capital, groupMembers, keptWords, relationWords, statementWords, whyWords } from './words';
 
 interface CardProps {
   readonly entry: LayerEntry;
@@ -178,7 +178,6 @@ function Statements({ statements }: { statements: readonly Statement[] }) {
       </summary>
       <ol>
         {statements.map((statement, i) => (
-          // biome-ignore lint/suspicious/noArrayIndexKey: statements have no other identity, and never change in place
           <StatementLine key={i} statement={statement} />
         ))}
       </ol>
@@ -189,7 +188,7 @@ function Statements({ statements }: { statements: readonly Statement[] }) {
 function StatementLine({ statement }: { statement: Statement }) {
   const open = useSignal(false);
   const why = whyWords(document.value, statement);
-  const parts = 'part' in statement ? [statement.part] : groupMembers(statement.relation);
+  const parts = 'part' in statement ? [statement.part] : groupMembers(document.value, statement.relation);
   return (
     <li>
       <button
@@ -208,9 +207,6 @@ function StatementLine({ statement }: { statement: Statement }) {
     </li>
   );
 }
-
-const groupMembers = (relation: string): readonly string[] =>
-  document.peek().model?.shape.relations.find(({ id }) => id === relation)?.parts ?? [];
 
 /** The statement as it is written, complete. */
 function formula(statement: Statement): string {

@@ -171,7 +171,7 @@ function Label({ part }: { part: ShapePart }) {
         void give((typed.value ?? first.label).trim());
       }}
     >
-      <label for="part-label" title="Parts with one label are compared for symmetry">
+      <label for="part-label" title="Parts with one label may mirror each other or stand in a row">
         Label
       </label>
       <input
@@ -205,9 +205,11 @@ function Label({ part }: { part: ShapePart }) {
           </button>
         )
       )}
-      <p id="part-label-help" class="quiet">
-        Parts with one label may mirror each other or stand in a row.
-      </p>
+      {typed.value !== null && (
+        <p id="part-label-help" class="quiet">
+          Parts with one label may mirror each other or stand in a row.
+        </p>
+      )}
     </form>
   );
 }

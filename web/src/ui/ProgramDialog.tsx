@@ -3,7 +3,7 @@ import { useComputed, useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import { programText } from '../program/text';
 import { checkProgramText, type TextError } from '../program/text_check';
-import type { Layer } from '../program/types';
+import type { Layer, Program } from '../program/types';
 import { programOf, withFreshParameters } from '../session/document';
 import { playOnce } from '../session/play';
 import { addProgram, document, entryOf, rewriteLayer, titleOf } from '../session/session';
@@ -16,7 +16,7 @@ const largestFile = 8 * 2 ** 20;
 export function ProgramDialog() {
   const { model } = document.value;
   const entry = textOf.value === null ? undefined : entryOf(textOf.value);
-  const original = model && entry ? programText(programOf(model.shape, [entry])) : '';
+  const original = model && entry ? programText(withoutReports(programOf(model.shape, [entry]))) : '';
   const text = useSignal(original);
   const copied = useSignal(false);
   const wrong = useSignal('');
@@ -130,13 +130,18 @@ function countWords(layers: readonly Layer[]): string {
   return `${layers.length === 1 ? '' : `${layers.length} edits, `}${plural(statements, 'statement')}`;
 }
 
+/** What was found out about relations is no part of what one writes. */
+function withoutReports(program: Program): Program {
+  return { ...program, layers: program.layers.map((layer) => ({ ...layer, relations: [] })) };
+}
+
 /** The layer under a parameter name that no other layer has; without reports that its new statements have not earned. */
 function ownName(layer: Layer, before: Layer, key: number): Layer {
   const others = document.peek().layers.filter((entry) => entry.key !== key);
   const taken = new Set(others.map((entry) => entry.layer.parameter.name));
   const [named = layer] = withFreshParameters([layer], taken);
   const same = JSON.stringify(layer.statements) === JSON.stringify(before.statements);
-  return { ...named, relations: same ? named.relations : [] };
+  return { ...named, relations: same ? before.relations : [] };
 }
 
 /** The text form of a program in JSON; null for what is none. */

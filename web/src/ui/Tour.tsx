@@ -1,6 +1,6 @@
 // A walk through the page in a few steps: offered at the first visit, started again from the help menu, left at any time.
 import { signal, useSignal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import { document } from '../session/session';
 import { Icon } from './Icon';
 
@@ -88,11 +88,11 @@ const gap = 12;
 export function Tour() {
   const box = useRef<HTMLDivElement>(null);
   const next = useRef<HTMLButtonElement>(null);
-  const ring = useSignal<{ left: number; top: number; width: number; height: number } | null>(null);
+  const ring = useSignal<Record<'left' | 'top' | 'width' | 'height', string> | null>(null);
   const at = step.value;
   const shown = at === null ? undefined : steps[at];
 
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (shown === undefined) return;
     const place = () => {
       const target = shown.at.map((selector) => globalThis.document.querySelector(selector)).find(Boolean);
@@ -100,7 +100,9 @@ export function Tour() {
       if (!target || !card) return;
       const isStage = target.matches('.stage');
       const { left, top, right, bottom, width, height } = target.getBoundingClientRect();
-      ring.value = isStage ? null : { left: left - 4, top: top - 4, width: width + 8, height: height + 8 };
+      ring.value = isStage
+        ? null
+        : { left: `${left - 4}px`, top: `${top - 4}px`, width: `${width + 8}px`, height: `${height + 8}px` };
       const middle = isStage ? innerWidth / 2 : (left + right) / 2;
       const beside = width < innerWidth / 2;
       let x = middle - card.offsetWidth / 2;

@@ -7,11 +7,11 @@ import { nameOf } from '../session/document';
 import { formatMeasure, type Measure, measureOf, parseMeasure } from '../session/measure';
 import { interrupt } from '../session/play';
 import {
-  activeLayers,
   compiled,
   document,
   settle,
   setValue,
+  shownLayers,
   slide,
   sliderValue,
   step,
@@ -119,7 +119,7 @@ function readingOf(entry: LayerEntry): Reading {
 
 /** Reads a measure at other values of the slider, then puts everything back. */
 function probe(entry: LayerEntry, measure: Measure, evaluator: Evaluator, at: readonly number[]): number[] {
-  const layers = activeLayers(document.peek());
+  const layers = shownLayers();
   const values = layers.map(sliderValue);
   const index = layers.findIndex(({ key }) => key === entry.key);
   const read = at.map((value) => {

@@ -26,6 +26,7 @@ export function toggleApart(): void {
   cancelAnimationFrame(apartFrame);
   if (prefersReducedMotion()) {
     apart.value = to;
+    stage.peek()?.fit(null);
     return;
   }
   const begin = performance.now();
@@ -33,6 +34,7 @@ export function toggleApart(): void {
     const t = Math.min(1, (now - begin) / 350);
     apart.value = from + (to - from) * (1 - (1 - t) ** 3);
     if (t < 1) apartFrame = requestAnimationFrame(next);
+    else stage.peek()?.fit(null);
   };
   apartFrame = requestAnimationFrame(next);
 }

@@ -5,6 +5,7 @@ import { parametersOf } from '../program/domain';
 import { parseAmount } from '../program/parse';
 import {
   type DirectionReference,
+  type GroupRelation,
   isGroup,
   type LocalTriple,
   type PointReference,
@@ -87,8 +88,8 @@ export function statementWords(document: Document, statement: Statement): string
   const shape = document.model?.shape;
   if (shape === undefined) return statement.op;
   if ('relation' in statement) {
-    const relation = shape.relations.find(({ id }) => id === statement.relation);
-    const group = relation && isGroup(relation) ? nameOf(document, relation.parent) : statement.relation;
+    const relation = groupOf(document, statement.relation);
+    const group = relation ? nameOf(document, relation.parent) : statement.relation;
     if (statement.op === 'change_delta') return `${capital(group)}: the spacing changes`;
     const how = statement.anchor === 'fit' ? 'within the same space' : 'with the same spacing';
     return `${capital(group)}: more or fewer, ${how}`;
@@ -119,17 +120,30 @@ export function statementWords(document: Document, statement: Statement): string
   }
 }
 
+function groupOf(document: Document, id: string): GroupRelation | undefined {
+  return document.model?.shape.relations.filter(isGroup).find((relation) => relation.id === id);
+}
+
+/** Ids of the instances of a row or a ring. */
+export const groupMembers = (document: Document, id: string): readonly string[] => groupOf(document, id)?.parts ?? [];
+
 /** Why a statement is in the program. */
 export function whyWords(document: Document, statement: Statement): string {
   const why = statement.why;
   if (why === undefined) return '';
   const shape = document.model?.shape;
-  const own = 'part' in statement ? statement.part : '';
+  const own =
+    'part' in statement
+      ? [statement.part]
+      : [groupOf(document, statement.relation)?.parent, ...groupMembers(document, statement.relation)];
+  const isTold = ({ kind }: ShapeRelation) =>
+    why.kind === 'symmetry' ? kind === 'reflection' : why.kind !== 'attachment' || kind !== 'reflection';
   const others = [
     ...new Set(
       why.relations
-        .flatMap((id) => shape?.relations.find((relation) => relation.id === id)?.parts ?? [])
-        .filter((part) => part !== own),
+        .flatMap((id) => shape?.relations.filter((relation) => relation.id === id && isTold(relation)) ?? [])
+        .flatMap(({ parts }) => parts)
+        .filter((part) => !own.includes(part)),
     ),
   ].map((id) => nameOf(document, id));
   const list = listWords(others);
