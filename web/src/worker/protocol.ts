@@ -6,6 +6,61 @@ import * as v from 'valibot';
 export const errorSchema = v.strictObject({ stage: v.string(), place: v.string(), cause: v.string(), fix: v.string() });
 export type CoreErrorValue = v.InferOutput<typeof errorSchema>;
 
+/** What the language model is asked; each has a template and a reply schema in prompts/. */
+export const taskSchema = v.picklist([
+  'seed_edit',
+  'type_hints',
+  'relation_validity_reflection',
+  'relation_validity_group',
+]);
+export type Task = v.InferOutput<typeof taskSchema>;
+
+/** One prompt of a request. `relation`: the relation that a validity task asks about. */
+const promptSchema = v.strictObject({
+  task: taskSchema,
+  relation: v.nullable(v.string()),
+  text: v.string(),
+  /** SHA-256 of the text, in hex. */
+  hash: v.string(),
+  /** Of the template. */
+  version: v.string(),
+});
+export type Prompt = v.InferOutput<typeof promptSchema>;
+
+const repliesSchema = v.strictObject({
+  task: taskSchema,
+  relation: v.nullable(v.string()),
+  texts: v.array(v.string()),
+});
+export type Replies = v.InferOutput<typeof repliesSchema>;
+
+/** What the replies of a request mean, counted. Every `of` is the number of replies that could be read. */
+const inferenceSchema = v.strictObject({
+  seed: v.strictObject({
+    /** decided: more than half agree; unclear: most say that the request is; none: no reply could be read. */
+    outcome: v.picklist(['decided', 'split', 'unclear', 'none']),
+    /** Most votes first, ties by first arrival. Statements as in the seed of `parsel/edit`. */
+    readings: v.array(
+      v.strictObject({ statements: v.array(v.looseObject({ op: v.string() })), words: v.string(), votes: v.number() }),
+    ),
+    of: v.number(),
+    /** The model's own words, when one said that the request is unclear. */
+    reason: v.nullable(v.string()),
+  }),
+  /** Those kept, by at least 60 % of the votes. */
+  hints: v.array(v.strictObject({ part: v.string(), hint: v.string(), votes: v.number(), of: v.number() })),
+  /** Every relation asked about; `votes` are those for `keep` as it is. */
+  relations: v.array(
+    v.strictObject({ relation: v.string(), keep: v.boolean(), votes: v.number(), of: v.number(), words: v.string() }),
+  ),
+  refused: v.array(
+    v.strictObject({ task: taskSchema, relation: v.nullable(v.string()), vote: v.number(), error: errorSchema }),
+  ),
+  /** `parsel/edit` v1; null when the seed has no reading. */
+  edit: v.nullable(v.looseObject({ format: v.literal('parsel/edit'), version: v.literal(1) })),
+});
+export type Inference = v.InferOutput<typeof inferenceSchema>;
+
 /** Every method of the core: the JSON parameters that it takes and the JSON result that it gives. */
 export const methodSchemas = {
   /** The version of the core. */
@@ -48,6 +103,19 @@ export const methodSchemas = {
     result: v.strictObject({
       models: v.array(v.looseObject({ id: v.string(), title: v.string(), file: v.string() })),
     }),
+  },
+  /** Every prompt of a request, and for each task the JSON schema of its reply. `mentioned`: parts pointed at. */
+  prompts: {
+    parameters: v.strictObject({ request: v.string(), mentioned: v.array(v.string()) }),
+    result: v.strictObject({
+      prompts: v.array(promptSchema),
+      schemas: v.record(taskSchema, v.looseObject({ type: v.optional(v.string()) })),
+    }),
+  },
+  /** What the model's replies to a request mean. `texts`: one for each vote that arrived. */
+  read_replies: {
+    parameters: v.strictObject({ request: v.string(), replies: v.array(repliesSchema) }),
+    result: inferenceSchema,
   },
   /** Goes wrong on purpose: how the recovery below is tested. */
   fail: {
