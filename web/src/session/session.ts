@@ -266,7 +266,7 @@ export async function run<T>(
   }
 }
 
-function sentence(error: unknown): string {
+export function sentence(error: unknown): string {
   const text = error instanceof Error ? error.message : String(error);
   if (error instanceof FileError) return text;
   const whole = text || 'something went wrong';

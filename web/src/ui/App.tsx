@@ -6,11 +6,13 @@ import type { Insets } from '../scene/camera';
 import { readDropped } from '../session/files';
 import { document } from '../session/session';
 import { dialog, openAny } from './actions';
+import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
 import { EditsPanel } from './EditsPanel';
 import { HelpDialog } from './HelpDialog';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
+import { ModelDialog } from './ModelDialog';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { ShareDialog } from './ShareDialog';
@@ -45,8 +47,8 @@ export function App() {
 
   if (isEmbedded) return <Embedded />;
   const insets: Insets = isPhone.value
-    ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 44 : 104 }
-    : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 56 };
+    ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 98 : 158 }
+    : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 150 };
   const edits = <EditsPanel pickKind={pickKind} />;
   return (
     <div class={`app ${isPhone.value ? 'phone' : ''}`}>
@@ -67,14 +69,19 @@ export function App() {
             </SidePanel>
           </>
         )}
-        <div class={`centre ${editsOpen.value ? '' : 'low'}`}>
+        <div
+          class={`centre ${editsOpen.value ? '' : 'low'}`}
+          style={{ paddingLeft: `${insets.left + 12}px`, paddingRight: `${insets.right + 12}px` }}
+        >
           <StatusLine />
           <Dimensions />
+          <Composer picking={pickKind.value !== null} />
         </div>
       </main>
       {dialog.value === 'open' && <OpenDialog />}
       {dialog.value === 'share' && <ShareDialog />}
       {dialog.value === 'help' && <HelpDialog />}
+      {dialog.value === 'model' && <ModelDialog />}
       {dropping.value && (
         <div class="drop" aria-hidden="true">
           <p>Drop a model to open it</p>

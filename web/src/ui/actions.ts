@@ -10,7 +10,7 @@ import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
 import { stage } from './view';
 
-export type DialogName = 'open' | 'share' | 'help';
+export type DialogName = 'open' | 'share' | 'help' | 'model';
 export const dialog = signal<DialogName | null>(null);
 
 /** Opens what was dropped or picked: a model, or saved work. */

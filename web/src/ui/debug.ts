@@ -1,6 +1,6 @@
 // With `?debug` in its address, the page hands its core and its state to the console (and to the tests) as `parsel`.
 import type { Stage } from '../scene/stage';
-import { core, substitute } from '../session/core';
+import { core, models, substitute } from '../session/core';
 import type { Document } from '../session/document';
 import type { ModelCore } from '../session/model_core';
 import { addProgram, compiled, document, slide } from '../session/session';
@@ -12,8 +12,8 @@ export interface DebugHandle {
   client(): CoreClient;
   /** Whether the core has started. */
   isReady(): boolean;
-  /** Puts another core in its place. */
-  substitute(models: ModelCore): void;
+  /** Puts these in place of what the core does. Throws while it starts. */
+  substitute(replaced: Partial<ModelCore>): void;
   document(): Document;
   stage(): Stage | null;
   /** Corners of all parts as the sliders stand, part × 24. */
@@ -30,8 +30,9 @@ export function exposeForDebugging(): void {
       return core.value.client;
     },
     isReady: () => core.value.kind === 'ready',
-    substitute(models) {
-      substitute.value = models;
+    substitute(replaced) {
+      if (models.value === null) throw new Error('the core is not ready');
+      substitute.value = { ...models.value, ...replaced };
     },
     document: () => document.value,
     stage: () => stage.value,
