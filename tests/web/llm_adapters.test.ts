@@ -65,6 +65,15 @@ describe.each(protocols)('%s', (protocol) => {
     expect(read).toBe('It says wider.\n\n```json\n{"edits":[]}\n```\n');
   });
 
+  it('keeps what a schema refers to where the references look for it', async () => {
+    providers.behave(() => ({ kind: 'reply', text }));
+    const edit = { type: 'object' };
+    await send(target(protocol), { schema: { oneOf: [{ $ref: '#/$defs/edit' }], $defs: { edit } } });
+    const body = JSON.stringify(providers.calls[0]?.body);
+    expect(body).toContain('"answer":{"anyOf":[{"$ref":"#/$defs/edit"}]}');
+    expect(body).toContain('"additionalProperties":false,"$defs":{"edit":{"type":"object"}}');
+  });
+
   it('goes on without the schema when the model refuses it, and remembers that', async () => {
     providers.behave(({ prompt }) =>
       prompt === 'widen'

@@ -23,13 +23,13 @@ const firstPause = 1000; // milliseconds, doubled each time
 const longestPause = 60_000;
 const maxReplyBytes = 4 << 20;
 
-/** Models of a provider that turned out to refuse structured output: they are asked without it from then on. */
+/** Schemas that a provider turned out to refuse for a model: it is asked without them from then on. */
 const unstructured = new Set<string>();
 
 /** @throws AskError; or the signal's reason */
 export async function complete(target: Target, call: Call, options: SendOptions): Promise<Reply> {
   const adapter = adapters[target.provider.protocol];
-  const name = `${target.base} ${target.model}`;
+  const name = `${target.base} ${target.model} ${JSON.stringify(call.schema)}`;
   const sleep = options.sleep ?? pause;
   for (let attempt = 1; ; attempt++) {
     const schema = unstructured.has(name) ? null : call.schema;

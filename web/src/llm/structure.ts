@@ -7,12 +7,19 @@ const instruction =
 
 export const structuredPrompt = (prompt: string): string => prompt + instruction;
 
-export const structuredSchema = (answer: object): object => ({
-  type: 'object',
-  properties: { thinking: { type: 'string' }, answer },
-  required: ['thinking', 'answer'],
-  additionalProperties: false,
-});
+/** The schema of such an object. Definitions move to its root, where references look for them. */
+export function structuredSchema(schema: object): object {
+  // All providers know anyOf; the alternatives exclude each other, so that it says the same.
+  const portable = JSON.parse(JSON.stringify(schema).replaceAll('"oneOf"', '"anyOf"')) as Record<string, unknown>;
+  const { $schema, $defs, ...answer } = portable;
+  return {
+    type: 'object',
+    properties: { thinking: { type: 'string' }, answer },
+    required: ['thinking', 'answer'],
+    additionalProperties: false,
+    ...($defs === undefined ? {} : { $defs }),
+  };
+}
 
 /** A reply as it came, or the one that a structured reply stands for. */
 export function plainReply(text: string): string {
