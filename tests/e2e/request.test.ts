@@ -149,7 +149,7 @@ async function ready(protocol: Protocol, { votes = 3, ...options }: BrowserConte
   const watched = await openModel(browser, url, stool, options);
   const { page } = watched;
   await page.getByRole('button', { name: /^Language model/ }).click();
-  await page.getByLabel('Asked').selectOption(protocol);
+  await page.getByLabel('Provider').selectOption(protocol);
   await page.getByLabel('Base URL').fill(providers.base(protocol));
   await page.getByLabel('Base URL').press('Tab');
   await page.getByLabel('Key', { exact: true }).fill('sk-secret');
@@ -317,7 +317,7 @@ describe('what goes wrong', () => {
   it('a missing key and an address that the policy forbids are said before anything is sent', async () => {
     const { page, complaints } = await openModel(browser, url, stool);
     await page.getByRole('button', { name: /^Language model/ }).click();
-    await page.getByLabel('Asked').selectOption('openai');
+    await page.getByLabel('Provider').selectOption('openai');
     await page.getByLabel('Model', { exact: true }).fill('m');
     await page.getByLabel('Base URL').fill('https://gateway.example/v1');
     await page.getByLabel('Base URL').press('Tab');

@@ -40,7 +40,8 @@ export async function complete(target: Target, call: Call, options: SendOptions)
     } catch (error) {
       options.signal.throwIfAborted();
       if (!(error instanceof AskError)) throw error;
-      if (error.kind === 'request' && schema !== null) {
+      // Some say of an option that they do not know that the model does not know it.
+      if (schema !== null && (error.kind === 'request' || error.kind === 'model_unknown')) {
         unstructured.add(name);
         continue;
       }

@@ -147,7 +147,8 @@ export async function sendRequest(before: Understood | null = null): Promise<voi
     );
     signal.throwIfAborted();
     if (document.peek().model !== model) throw new Error('Another model was opened meanwhile; send the request again');
-    const edit = answer.inference.edit as EditInput | null;
+    const read = answer.inference.edit as Partial<EditInput> | null;
+    const edit = read && { seed: [], disabled: [], hints: {}, ...read };
     request.value = {
       kind: 'understood',
       model,

@@ -48,7 +48,9 @@ export function Composer({ picking }: { picking: boolean }) {
   return (
     <section class="composer panel" aria-label="Request in words">
       <div class="composer-said">
-        {state.kind === 'understood' && <ReadingCard key={state.answer} state={state} />}
+        {state.kind === 'understood' && state.model === document.value.model && (
+          <ReadingCard key={state.answer} state={state} />
+        )}
         <div role="alert">{state.kind === 'failed' && <Failed text={state.text} isSetting={state.isSetting} />}</div>
         <div role="status">{isAsking && <Asking tasks={state.tasks} />}</div>
       </div>
@@ -119,11 +121,13 @@ function useMentions(picking: boolean, isFocused: Signal<boolean>): void {
 }
 
 function Mentions() {
+  const parts = document.value.model?.shape.parts ?? [];
   const part = selection.value?.part;
   const offered = part !== undefined && !mentioned.value.includes(part) ? part : null;
+  const known = mentioned.value.filter((id) => parts.some((other) => other.id === id));
   return (
     <>
-      {mentioned.value.map((id) => (
+      {known.map((id) => (
         <span class="mention" key={id}>
           {nameOf(document.value, id)}
           <button
@@ -203,8 +207,8 @@ function Below() {
   const isEmpty = requestText.value === '' && first === undefined;
   if (request.value.kind === 'asking') return null;
   if (!isEmpty && !isDemo.value) return <EstimateLine />;
-  const made = new Set(document.value.layers.map(({ layer }) => layer.request));
-  const open = recorded.filter((known) => !made.has(known.request));
+  const made = new Set(document.value.layers.map(({ layer }) => layer.request.toLowerCase()));
+  const open = recorded.filter((known) => !made.has(known.request.toLowerCase()));
   if (open.length === 0 || (!isEmpty && request.value.kind !== 'failed')) return null;
   return (
     <div class="tries">

@@ -28,7 +28,7 @@ export function ModelDialog() {
       }}
     >
       <label class="field">
-        <span>Asked</span>
+        <span>Provider</span>
         <select
           value={settings.value.provider}
           onChange={(event) => {
