@@ -9,6 +9,8 @@
 #include "core/edit/amount.h"
 #include "core/edit/apply.h"
 #include "core/gallery/gallery.h"
+#include "core/infer/inference.h"
+#include "core/infer/prompt.h"
 #include "core/propagate/propagate.h"
 #include "core/propagate/solve.h"
 #include "core/shape/abstraction.h"
@@ -150,6 +152,34 @@ Result<Output> gallery(const Input&) {
   return output;
 }
 
+/// request: a text; mentioned: ids of parts.
+Result<Output> prompts(const Input& input) {
+  if (!model) return no_model();
+  EditWish wish;
+  const Result<std::string> request = text_parameter(input, "request");
+  if (!request.ok()) return request.error();
+  wish.request = *request;
+  for (const json& id : input.parameters.value("mentioned", json::array())) {
+    if (!id.is_string()) return wrong_parameter("mentioned", "a list of parts of the model");
+    wish.mentioned.push_back(id.get<std::string>());
+  }
+  const Result<std::vector<Prompt>> made = make_prompts(model->shape, wish);
+  if (!made.ok()) return made.error();
+  json list = json::array(), schemas = json::object();
+  for (const Prompt& prompt : *made) list.push_back(to_json(model->shape, prompt));
+  for (const Task task : all_tasks) schemas[std::string(to_string(task))] = reply_schema(task);
+  return Output{{{"prompts", std::move(list)}, {"schemas", std::move(schemas)}}, {}};
+}
+
+/// replies: for each prompt the texts that the language model gave.
+Result<Output> read_replies(const Input& input) {
+  if (!model) return no_model();
+  const Result<std::vector<Replies>> replies =
+      replies_from_json(model->shape, input.parameters.value("replies", json()));
+  if (!replies.ok()) return replies.error();
+  return Output{to_json(model->shape, infer(model->shape, *replies)), {}};
+}
+
 /// Bytes of linear memory: it grows and never shrinks, so this is the peak as well.
 Result<Output> memory(const Input&) {
 #ifdef __wasm__
@@ -184,6 +214,8 @@ constexpr std::array all_methods = {
     Method{"propagate", propagate_edit},
     Method{"apply", apply},
     Method{"gallery", gallery},
+    Method{"prompts", prompts},
+    Method{"read_replies", read_replies},
     Method{"memory", memory},
     Method{"fail", fail},
 };

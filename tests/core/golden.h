@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,6 +16,12 @@ inline const nlohmann::json& golden(const std::string& name) {
   if (found != files.end()) return found->second;
   std::ifstream file(std::string(PARSEL_TESTS_DIR "/golden/") + name);
   return files.emplace(name, nlohmann::json::parse(file)).first->second;
+}
+
+/// A file as it is.
+inline std::string golden_text(const std::string& name) {
+  std::ifstream file(std::string(PARSEL_TESTS_DIR "/golden/") + name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace parsel

@@ -1,0 +1,46 @@
+// All replies to one request, read, counted and put together.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/infer/edit_assembly.h"
+
+namespace parsel {
+
+/// The replies to one prompt: one text for each vote that arrived.
+struct Replies {
+  Task task = Task::seed_edit;
+  std::optional<RelationIndex> relation;  ///< set for the validity tasks, and of the kind that they ask about
+  std::vector<std::string> texts;
+};
+
+/// A reply that could not be read; it does not count.
+struct RefusedReply {
+  Task task;
+  std::optional<RelationIndex> relation;
+  std::size_t vote;  ///< index into Replies::texts
+  Error error;
+};
+
+struct Inference {
+  SeedVote seed;
+  std::vector<HintVote> hints;
+  std::vector<RelationVote> relations;
+  std::vector<RefusedReply> refused;
+  std::optional<EditRequest> edit;  ///< of the first reading; nothing when there is none
+};
+
+Inference infer(const Shape& shape, const std::vector<Replies>& replies);
+
+/// [{"task", "relation": id or null, "texts": [...]}] → replies. Error place is a JSON pointer: "/0/relation".
+Result<std::vector<Replies>> replies_from_json(const Shape& shape, const nlohmann::json& json);
+
+/// {"seed": {"outcome", "readings": [{"statements", "words", "votes"}], "of", "reason"}, "hints": [{"part", "hint",
+/// "votes", "of"}], "relations": [{"relation", "keep", "votes", "of", "words"}], "refused": [{"task", "relation",
+/// "vote", "error"}], "edit": parsel/edit v1 or null}
+nlohmann::json to_json(const Shape& shape, const Inference& inference);
+
+}  // namespace parsel

@@ -1,0 +1,125 @@
+#include "core/infer/prompt.h"
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/base/sha256.h"
+#include "core/edit/program_fields.h"
+#include "core/infer/prompt_texts.h"
+#include "core/shape/gltf_document.h"
+#include "core/shape/words.h"
+
+namespace parsel {
+
+namespace {
+
+constexpr const char* stage = "infer/prompt";
+
+struct Template {
+  std::string_view version, text;
+};
+
+/// The first line is "<!-- version N -->", then a blank one.
+Template read_template(Task task) {
+  const std::string_view file = prompt_texts[static_cast<std::size_t>(task)].markdown;
+  constexpr std::string_view opening = "<!-- version ", closing = " -->\n\n";
+  const std::size_t end = file.find(closing);
+  PARSEL_ASSERT(file.starts_with(opening) && end != file.npos, "a template begins with its version");
+  return {file.substr(opening.size(), end - opening.size()), file.substr(end + closing.size())};
+}
+
+/// On one line between double quotes, escaped as in JSON; without backquotes, so that no code block can open.
+std::string quoted_request(const std::string& request) {
+  std::string text = printable(request, ProgramLimits::request_bytes);
+  for (char& c : text) {
+    if (c == '`') c = '\'';
+  }
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string fill(std::string_view text, const std::map<std::string_view, std::string>& places) {
+  std::string out;
+  while (true) {
+    const std::size_t open = text.find("{{");
+    out += text.substr(0, open);
+    if (open == text.npos) return out;
+    const std::size_t close = text.find("}}", open);
+    PARSEL_ASSERT(close != text.npos, "a template closes its places");
+    const auto place = places.find(text.substr(open + 2, close - open - 2));
+    PARSEL_ASSERT(place != places.end(), "a template names known places only");
+    out += place->second;
+    text.remove_prefix(close + 2);
+  }
+}
+
+Status check(const EditWish& wish) {
+  if (printable(wish.request, 1).empty()) {
+    return Error{stage, "request", "it is empty", "say what to change, such as: widen the chair"};
+  }
+  const std::string fault = prose_fault(wish.request, ProgramLimits::request_bytes);
+  if (!fault.empty()) return Error{stage, "request", fault, "say it shorter and in plain text"};
+  return success();
+}
+
+}  // namespace
+
+Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, Task task, std::optional<RelationIndex> relation) {
+  if (const Status checked = check(wish); !checked.ok()) return checked.error();
+  if (relation && validity_task(shape.relations[*relation].kind) != task) {
+    return Error{stage, shape.relations[*relation].id,
+                 "the task " + std::string(to_string(task)) + " does not ask about this relation",
+                 "ask about a reflection or a group with the task for its kind"};
+  }
+  if (!relation && is_validity(task)) {
+    return Error{stage, "relation", "the task " + std::string(to_string(task)) + " asks about one relation",
+                 "name a relation, such as r1 or t1"};
+  }
+  std::string mentioned;
+  for (const std::string& id : wish.mentioned) {
+    const auto part = shape.find_part(id);
+    if (!part) return Error{stage, "mentioned", "the shape has no part " + shown(id), "point at parts of this model"};
+    mentioned += (mentioned.empty() ? "" : ", ") + shape.parts[*part].id;
+  }
+  const Template from = read_template(task);
+  Prompt prompt{task, relation, {}, {}, std::string(from.version)};
+  prompt.text =
+      fill(from.text,
+           {{"shape", describe(shape)},
+            {"request", quoted_request(wish.request)},
+            {"mentioned", mentioned.empty() ? "none" : mentioned},
+            {"relation", relation ? shape.relations[*relation].id + ": " + describe(shape, *relation) + "." : ""}});
+  prompt.hash = sha256_hex(prompt.text);
+  return prompt;
+}
+
+Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wish) {
+  std::vector<Prompt> prompts;
+  const auto add = [&](Task task, std::optional<RelationIndex> relation) -> Status {
+    Result<Prompt> prompt = make_prompt(shape, wish, task, relation);
+    if (!prompt.ok()) return prompt.error();
+    prompts.push_back(std::move(*prompt));
+    return success();
+  };
+  if (const Status s = add(Task::seed_edit, {}); !s.ok()) return s.error();
+  if (const Status s = add(Task::type_hints, {}); !s.ok()) return s.error();
+  for (const RelationIndex r : active_relations(shape)) {
+    const auto task = validity_task(shape.relations[r].kind);
+    if (!task) continue;
+    if (const Status s = add(*task, r); !s.ok()) return s.error();
+  }
+  return prompts;
+}
+
+nlohmann::json to_json(const Shape& shape, const Prompt& prompt) {
+  return {{"task", to_string(prompt.task)},
+          {"relation", prompt.relation ? nlohmann::json(shape.relations[*prompt.relation].id) : nlohmann::json()},
+          {"text", prompt.text},
+          {"hash", prompt.hash},
+          {"version", prompt.version}};
+}
+
+nlohmann::json reply_schema(Task task) {
+  return nlohmann::json::parse(prompt_texts[static_cast<std::size_t>(task)].schema);
+}
+
+}  // namespace parsel

@@ -1,0 +1,45 @@
+// From a request to the texts that the language model gets. ParSEL §6.2.1, supplement §5.2.
+//
+// A template holds {{places}}; what is put in is never looked at again, so that a name cannot open a place of its own.
+// Names come from the model's file, so from strangers: they stand between double quotes on a line that we began
+// (core/shape/words.h), and so does the request.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/infer/task.h"
+
+namespace parsel {
+
+/// What a person asks for.
+struct EditWish {
+  std::string request;                 ///< in words: UTF-8, not blank, at most ProgramLimits::request_bytes
+  std::vector<std::string> mentioned;  ///< ids of the parts that the person pointed at
+};
+
+struct Prompt {
+  Task task = Task::seed_edit;
+  std::optional<RelationIndex> relation;  ///< for the validity tasks
+  std::string text;
+  std::string hash;     ///< SHA-256 of the text, in hex
+  std::string version;  ///< of the template
+};
+
+/// `relation` is needed by the validity tasks, of the kind that they ask about, and refused by the others.
+Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, Task task,
+                           std::optional<RelationIndex> relation = {});
+
+/// Every prompt of a request: the seed edit, the type hints, and one for each active symmetry (all groups standing).
+Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wish);
+
+/// {"task", "relation": id or null, "text", "hash", "version"}
+nlohmann::json to_json(const Shape& shape, const Prompt& prompt);
+
+/// The JSON schema of the block that ends a reply.
+nlohmann::json reply_schema(Task task);
+
+}  // namespace parsel
