@@ -1,17 +1,5 @@
 // The page's Content-Security-Policy: one text for the built page, the dev and preview servers, and the tests.
-
-/** Where the page may send requests besides itself: the language-model providers, and servers on this machine. */
-const providers = [
-  'https://api.openai.com',
-  'https://openrouter.ai',
-  'https://api.groq.com',
-  'https://api.mistral.ai',
-  'https://api.deepseek.com',
-  'https://api.anthropic.com',
-  'https://generativelanguage.googleapis.com',
-  'http://localhost:*',
-  'http://127.0.0.1:*',
-];
+import { allowedOrigins } from './src/llm/providers';
 
 /** @param development Vite's hot reload talks to its server over a web socket. */
 export function contentSecurityPolicy(development: boolean): string {
@@ -20,7 +8,7 @@ export function contentSecurityPolicy(development: boolean): string {
     "default-src 'self'",
     "script-src 'self' 'wasm-unsafe-eval'",
     "worker-src 'self' blob:",
-    `connect-src ${["'self'", 'blob:', 'data:', ...providers, ...sockets].join(' ')}`,
+    `connect-src ${["'self'", 'blob:', 'data:', ...allowedOrigins, ...sockets].join(' ')}`,
     "img-src 'self' blob: data:",
     "object-src 'none'",
     "base-uri 'none'",

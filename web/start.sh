@@ -27,6 +27,7 @@ need_npm_packages
 say "Building the core for WebAssembly"
 build_wasm
 node "$root/web/tools/gallery.mjs" || die "The gallery could not be written; the lines above say why."
+node "$root/web/tools/recordings.mjs" || die "The recorded replies could not be written; the lines above say why."
 say "Building the page"
 (cd "$root/web" && npm run --silent build -- --logLevel warn) || die "Building the page failed; the lines above say why."
 node "$root/web/tools/sizes.mjs"

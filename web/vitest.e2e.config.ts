@@ -1,8 +1,10 @@
+import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
   root: '..',
   cacheDir: 'web/node_modules/.vite',
+  resolve: { alias: { 'parsel-module': fileURLToPath(new URL('../build/wasm/wasm', import.meta.url)) } },
   test: {
     include: ['tests/e2e/**/*.test.ts'],
     environment: 'node',

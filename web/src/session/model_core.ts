@@ -3,6 +3,7 @@
 import type { Program, Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
 import type { CallOptions, CoreClient } from '../worker/client';
+import type { Inference, MethodResult, Replies } from '../worker/protocol';
 import { type EditInput, type Labels, noLabels, type OpenModel } from './document';
 import type { Trace } from './trace';
 
@@ -34,6 +35,10 @@ export interface ModelCore {
   propagate(model: OpenModel, edit: EditInput, options: Options): Promise<Propagation>;
   /** The model's file with the program applied. */
   apply(model: OpenModel, program: Program, options: ExportOptions): Promise<Exported>;
+  /** What a language model is to be asked. `mentioned`: ids of parts that were pointed at. */
+  prompts(model: OpenModel, request: string, mentioned: readonly string[]): Promise<MethodResult<'prompts'>>;
+  /** What its replies mean. */
+  readReplies(model: OpenModel, request: string, replies: Replies[]): Promise<Inference>;
 }
 
 /** @param onLost the core has lost its model, which is opened again when it is next asked about */
@@ -63,6 +68,14 @@ export function modelCore(client: CoreClient, onLost: () => void): ModelCore {
       await hold(model, options);
       const { result } = await client.call('propagate', { edit }, options);
       return result as Propagation;
+    },
+    async prompts(model, request, mentioned) {
+      await hold(model, {});
+      return (await client.call('prompts', { request, mentioned: [...mentioned] })).result;
+    },
+    async readReplies(model, request, replies) {
+      await hold(model, {});
+      return (await client.call('read_replies', { request, replies })).result;
     },
     async apply(model, program, { animate, only }) {
       await hold(model, {});

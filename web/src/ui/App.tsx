@@ -7,12 +7,14 @@ import { readDropped } from '../session/files';
 import { document } from '../session/session';
 import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
+import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
 import { EditsPanel } from './EditsPanel';
 import { Handles } from './Handles';
 import { HelpDialog } from './HelpDialog';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
+import { ModelDialog } from './ModelDialog';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { ProgramDialog } from './ProgramDialog';
@@ -49,8 +51,8 @@ export function App() {
 
   if (isEmbedded) return <Embedded />;
   const insets: Insets = isPhone.value
-    ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 44 : 104 }
-    : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 56 };
+    ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 98 : 158 }
+    : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 150 };
   const edits = <EditsPanel pickKind={pickKind} />;
   return (
     <div class={`app ${isPhone.value ? 'phone' : ''}`}>
@@ -72,13 +74,17 @@ export function App() {
             </SidePanel>
           </>
         )}
-        <div class={`centre ${editsOpen.value ? '' : 'low'}`}>
+        <div
+          class={`centre ${editsOpen.value ? '' : 'low'}`}
+          style={{ paddingLeft: `${insets.left + 12}px`, paddingRight: `${insets.right + 12}px` }}
+        >
           <TourOffer />
           <StatusLine />
           <div class="row">
             <Dimensions />
             <ApartSlider />
           </div>
+          <Composer picking={pickKind.value !== null} />
         </div>
       </main>
       {!isPhone.value && (
@@ -91,6 +97,7 @@ export function App() {
       {dialog.value === 'share' && <ShareDialog />}
       {dialog.value === 'help' && <HelpDialog />}
       {dialog.value === 'text' && <ProgramDialog />}
+      {dialog.value === 'model' && <ModelDialog />}
       {dropping.value && (
         <div class="drop" aria-hidden="true">
           <p>Drop a model to open it</p>

@@ -254,7 +254,15 @@ function FeatureSelect({ label, value, whole, onChange }: FeatureSelectProps) {
   );
 }
 
-function Hints({ shape, except, chosen }: { shape: Shape; except: string; chosen: Signal<ReadonlyMap<string, Hint>> }) {
+export function Hints({
+  shape,
+  except,
+  chosen,
+}: {
+  shape: Shape;
+  except: string;
+  chosen: { value: ReadonlyMap<string, Hint> };
+}) {
   const free = shape.parts.filter(({ id }) => id !== except && !chosen.value.has(id));
   const set = (id: string, hint: Hint | null) => {
     const next = new Map(chosen.value);

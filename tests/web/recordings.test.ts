@@ -1,0 +1,84 @@
+// What the page offers without a key has its answers: every prompt of a recorded request, as the core renders it today, has
+// a recording that the core can read, and no recording belongs to a prompt of yesterday.
+import { beforeAll, describe, expect, it } from 'vitest';
+import type { Inference, Prompt, Replies } from '../../web/src/worker/protocol';
+import {
+  compare,
+  type Recording,
+  type RenderedRequest,
+  readRecordings,
+  readRequests,
+  renderRequests,
+} from '../../web/tools/prompts.mjs';
+import { loadModule } from './module';
+
+type Core = Parameters<typeof renderRequests>[0];
+let core: Core;
+beforeAll(async () => {
+  const module = await loadModule();
+  core = (method, parameters, buffers = []) => {
+    const reply = module.invoke(method, JSON.stringify(parameters), buffers, null);
+    const { result, error } = JSON.parse(reply.json) as { result: unknown; error?: { cause: string } };
+    if (error) throw new Error(error.cause);
+    return { result, buffers: reply.buffers };
+  };
+});
+
+describe('the recorded requests', () => {
+  it('are whole and of today', () => {
+    const { missing, stale } = compare(renderRequests(core, readRequests()), readRecordings());
+    expect(
+      missing.map(({ model, request, prompt }) => `${model}: ${request}: ${prompt.task} ${prompt.relation}`),
+    ).toEqual([]);
+    expect(stale).toEqual([]);
+  });
+
+  it('are each understood', () => {
+    const recordings = readRecordings();
+    const { offered } = compare(renderRequests(core, readRequests()), recordings);
+    for (const { model, request, mentioned, prompts } of offered) {
+      // Opens the model again.
+      renderRequests(core, [{ model, request, mentioned: mentioned ?? [] }]);
+      const replies: Replies[] = prompts.map(({ task, relation, hash }) => ({
+        task,
+        relation,
+        texts: (recordings.get(hash)?.replies ?? []).map(({ text }) => text),
+      }));
+      const inference = core('read_replies', { request, replies }).result as Inference;
+      expect(inference.seed.outcome, `${model}: ${request}`).toBe('decided');
+      expect(() => core('propagate', { edit: inference.edit }), `${model}: ${request}`).not.toThrow();
+    }
+  });
+});
+
+describe('the comparison', () => {
+  const prompt = (hash: string): Prompt => ({ task: 'seed_edit', relation: null, text: hash, hash, version: '1' });
+  const request = (name: string, hashes: string[]): RenderedRequest => ({
+    model: 'chair',
+    request: name,
+    prompts: hashes.map(prompt),
+    schemas: {} as RenderedRequest['schemas'],
+  });
+  const recording = (hash: string, votes = 1): [string, Recording] => [
+    hash,
+    {
+      hash,
+      task: 'seed_edit',
+      model: 'm',
+      date: '',
+      replies: Array.from({ length: votes }, (_, vote) => ({ vote, text: '' })),
+    },
+  ];
+
+  it('tells what is offered, open, missing and stale', () => {
+    const rendered = [request('whole', ['a', 'b']), request('half', ['c', 'd']), request('none', ['e'])];
+    const found = compare(
+      rendered,
+      new Map([recording('a'), recording('b'), recording('c'), recording('d', 0), recording('x')]),
+    );
+    expect(found.offered.map((entry) => entry.request)).toEqual(['whole']);
+    expect(found.open.map((entry) => entry.request)).toEqual(['none']);
+    expect(found.missing.map((entry) => entry.prompt.hash)).toEqual(['d']);
+    expect(found.stale).toEqual(['x']);
+  });
+});

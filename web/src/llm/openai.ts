@@ -1,0 +1,58 @@
+// The OpenAI protocol, which most others speak as well: POST {base}/chat/completions with a bearer key.
+import * as v from 'valibot';
+import { type Adapter, cutOff, outputBudget, unreadable } from './adapter';
+import { AskError, quoted } from './ask_error';
+import { plainReply, structuredPrompt, structuredSchema } from './structure';
+
+const count = v.fallback(v.number(), 0);
+const replySchema = v.object({
+  choices: v.tupleWithRest(
+    [
+      v.object({
+        finish_reason: v.nullish(v.string()),
+        message: v.object({ content: v.nullish(v.string()), refusal: v.nullish(v.string()) }),
+      }),
+    ],
+    v.unknown(),
+  ),
+  usage: v.nullish(v.object({ prompt_tokens: count, completion_tokens: count })),
+});
+
+const headersOf = (key: string): Record<string, string> => (key === '' ? {} : { Authorization: `Bearer ${key}` });
+
+export const openai: Adapter = {
+  request({ base, model, key, provider }, { prompt, schema }) {
+    const structure = schema === null ? 'none' : provider.structure;
+    const format =
+      structure === 'schema'
+        ? { type: 'json_schema', json_schema: { name: 'reply', schema: structuredSchema(schema as object) } }
+        : { type: 'json_object' };
+    return {
+      url: `${base}/chat/completions`,
+      headers: { 'Content-Type': 'application/json', ...headersOf(key) },
+      body: {
+        model,
+        messages: [{ role: 'user', content: structure === 'none' ? prompt : structuredPrompt(prompt) }],
+        [provider.limit]: outputBudget,
+        ...(structure === 'none' ? {} : { response_format: format }),
+        // OpenRouter can answer equal requests from a cache, which would make all votes one: no two requests are equal.
+        ...(provider.id === 'openrouter' ? { seed: Math.floor(Math.random() * 2 ** 31) } : {}),
+      },
+    };
+  },
+  read(json, host) {
+    const read = v.safeParse(replySchema, json);
+    if (!read.success) throw unreadable(host);
+    const { choices, usage } = read.output;
+    const [{ finish_reason, message }] = choices;
+    if (finish_reason === 'length') throw cutOff(host);
+    if (message.refusal)
+      throw new AskError('unreadable', host, `refuses to answer${quoted(message.refusal)}`, 'Say it in other words');
+    if (!message.content) throw unreadable(host);
+    return {
+      text: plainReply(message.content),
+      tokens: usage ? { input: usage.prompt_tokens, output: usage.completion_tokens } : null,
+    };
+  },
+  models: ({ base, key }) => ({ url: `${base}/models`, headers: headersOf(key) }),
+};

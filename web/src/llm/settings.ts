@@ -1,0 +1,108 @@
+// Whom to ask and how: everything that the settings dialog holds but the key. Kept in the browser; the key is not here.
+import { computed, effect, signal } from '@preact/signals';
+import * as v from 'valibot';
+import type { Target, Tokens } from './adapter';
+import { AskError } from './ask_error';
+import { keyFor } from './keys';
+import { isAllowed, providerOf } from './providers';
+
+/** The recorded answers that come with the page, which need no key. */
+export const recorded = 'recorded';
+export const maxVotes = 9;
+export const defaultVotes = 5;
+
+const price = v.fallback(v.nullable(v.pipe(v.number(), v.minValue(0))), null);
+const settingsSchema = v.object({
+  /** A provider's id, or `recorded`. */
+  provider: v.fallback(
+    v.pipe(
+      v.string(),
+      v.check((id) => id === recorded || providerOf(id) !== undefined),
+    ),
+    recorded,
+  ),
+  /** Of each provider that was ever chosen. */
+  choices: v.fallback(
+    v.record(
+      v.string(),
+      v.object({
+        base: v.fallback(v.string(), ''),
+        model: v.fallback(v.string(), ''),
+        /** In any currency, for a million tokens; null: not known. */
+        inputPrice: price,
+        outputPrice: price,
+      }),
+    ),
+    {},
+  ),
+  votes: v.fallback(v.pipe(v.number(), v.integer(), v.minValue(1), v.maxValue(maxVotes)), defaultVotes),
+});
+export type Settings = v.InferOutput<typeof settingsSchema>;
+export type Choice = Settings['choices'][string];
+
+const storageKey = 'parsel-model';
+
+function stored(): Settings {
+  try {
+    return v.parse(settingsSchema, JSON.parse(localStorage.getItem(storageKey) ?? '{}'));
+  } catch {
+    return v.parse(settingsSchema, {});
+  }
+}
+
+export const settings = signal<Settings>(stored());
+effect(() => {
+  try {
+    localStorage.setItem(storageKey, JSON.stringify(settings.value));
+  } catch {
+    // it lasts as long as the page, then
+  }
+});
+
+export const isDemo = computed(() => settings.value.provider === recorded);
+
+export function choiceOf(provider: string): Choice {
+  const base = providerOf(provider)?.base ?? '';
+  return settings.value.choices[provider] ?? { base, model: '', inputPrice: null, outputPrice: null };
+}
+
+export function choose(provider: string, change: Partial<Choice>): void {
+  const { choices } = settings.peek();
+  settings.value = {
+    ...settings.peek(),
+    provider,
+    choices: { ...choices, [provider]: { ...choiceOf(provider), ...change } },
+  };
+}
+
+/** Whom the present settings ask. @throws AskError that says what is missing */
+export function currentTarget(): Target {
+  const provider = providerOf(settings.peek().provider);
+  if (provider === undefined) throw new AskError('settings', '', 'No provider is chosen', 'Choose one in the settings');
+  const { base, model } = choiceOf(provider.id);
+  if (!isAllowed(base))
+    throw new AskError(
+      'settings',
+      base || 'The base URL',
+      'is not an address that this page may talk to',
+      'Only the listed providers and http://localhost are open to it: choose one of them in the settings',
+    );
+  if (model.trim() === '')
+    throw new AskError('settings', provider.title, 'needs the name of a model', 'Type or choose one in the settings');
+  const { key } = keyFor(base);
+  if (key === '' && provider.keysAt !== null)
+    throw new AskError(
+      'no_key',
+      provider.title,
+      'wants a key',
+      'Enter one in the settings, or switch to the recorded answers there',
+    );
+  return { provider, base: base.replace(/\/+$/, ''), model: model.trim(), key };
+}
+
+/** What tokens cost at the prices of the settings; null when a price is not known. */
+export function costOf({ input, output }: Tokens): number | null {
+  const { inputPrice, outputPrice } = choiceOf(settings.value.provider);
+  if (inputPrice === null || outputPrice === null) return null;
+  return (input * inputPrice + output * outputPrice) / 1e6;
+}

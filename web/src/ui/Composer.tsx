@@ -1,0 +1,284 @@
+// Where one says what to change: the request with the parts it mentions, what can be tried, how far the answers are, what
+// was understood, and what went wrong.
+import { type Signal, useSignal, useSignalEffect } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import { loadRecordings, type RecordedRequest } from '../llm/recordings';
+import type { Estimate, TaskProgress } from '../llm/session';
+import { choiceOf, costOf, isDemo, settings } from '../llm/settings';
+import { models } from '../session/core';
+import { nameOf } from '../session/document';
+import {
+  cancelRequest,
+  dismiss,
+  estimateRequest,
+  mention,
+  mentioned,
+  request,
+  requestText,
+  sendRequest,
+  unmention,
+} from '../session/request';
+import { document, selection } from '../session/session';
+import { dialog } from './actions';
+import { Icon } from './Icon';
+import { ReadingCard } from './ReadingCard';
+import './composer.css';
+
+const maxLength = 1000;
+
+/** @param picking whether clicks in the view belong to the edit by hand */
+export function Composer({ picking }: { picking: boolean }) {
+  const field = useRef<HTMLTextAreaElement>(null);
+  const isFocused = useSignal(false);
+  const state = request.value;
+  const isAsking = state.kind === 'asking';
+  useMentions(picking, isFocused);
+  if (document.value.model === null) return null;
+  const name = isDemo.value ? 'Recorded answers' : choiceOf(settings.value.provider).model || 'No model chosen';
+
+  const send = () => void sendRequest();
+  const onKeyDown = (event: KeyboardEvent) => {
+    if (event.key === 'Enter' && !event.shiftKey && !event.isComposing) send();
+    else if (event.key === 'Escape' && isAsking) cancelRequest();
+    else if (event.key === 'Escape') field.current?.blur();
+    else if (event.key === 'Backspace' && requestText.peek() === '') mentioned.value = mentioned.peek().slice(0, -1);
+    else return;
+    if (event.key !== 'Backspace') event.preventDefault();
+  };
+  return (
+    <section class="composer panel" aria-label="Request in words">
+      <div class="composer-said">
+        {state.kind === 'understood' && state.model === document.value.model && (
+          <ReadingCard key={state.answer} state={state} />
+        )}
+        <div role="alert">{state.kind === 'failed' && <Failed text={state.text} isSetting={state.isSetting} />}</div>
+        <div role="status">{isAsking && <Asking tasks={state.tasks} />}</div>
+      </div>
+      <form
+        class="composer-row"
+        onSubmit={(event) => {
+          event.preventDefault();
+          send();
+        }}
+      >
+        <div class="composer-field">
+          <Mentions />
+          <textarea
+            ref={field}
+            rows={1}
+            maxLength={maxLength}
+            value={requestText.value}
+            readOnly={isAsking}
+            placeholder="Say what to change…"
+            aria-label="What to change"
+            onInput={(event) => {
+              requestText.value = event.currentTarget.value;
+            }}
+            onKeyDown={onKeyDown}
+            onFocus={() => {
+              isFocused.value = true;
+            }}
+            onBlur={() => {
+              isFocused.value = false;
+            }}
+          />
+        </div>
+        <button
+          type="button"
+          class="button icon-only"
+          aria-label={`Language model: ${name}`}
+          title={`Language model: ${name}`}
+          aria-haspopup="dialog"
+          onClick={() => (dialog.value = 'model')}
+        >
+          <Icon name="settings" />
+        </button>
+        <button
+          type="submit"
+          class="button icon-only primary"
+          aria-label="Send"
+          title="Send (Enter)"
+          disabled={isAsking || requestText.value.trim() === '' || models.value === null}
+        >
+          <Icon name="send" />
+        </button>
+      </form>
+      <Below />
+    </section>
+  );
+}
+
+/** While something is being written, a click on a part mentions it. */
+function useMentions(picking: boolean, isFocused: Signal<boolean>): void {
+  const last = useRef<string | null>(null);
+  useSignalEffect(() => {
+    const part = selection.value?.part ?? null;
+    if (part === last.current) return;
+    last.current = part;
+    const isWriting = isFocused.peek() || requestText.peek() !== '' || mentioned.peek().length > 0;
+    if (part !== null && isWriting && !picking && request.peek().kind !== 'asking') mention(part);
+  });
+}
+
+function Mentions() {
+  const parts = document.value.model?.shape.parts ?? [];
+  const part = selection.value?.part;
+  const offered = part !== undefined && !mentioned.value.includes(part) ? part : null;
+  const known = mentioned.value.filter((id) => parts.some((other) => other.id === id));
+  return (
+    <>
+      {known.map((id) => (
+        <span class="mention" key={id}>
+          {nameOf(document.value, id)}
+          <button
+            type="button"
+            aria-label={`Do not mention ${nameOf(document.value, id)}`}
+            onClick={() => unmention(id)}
+          >
+            <Icon name="close" />
+          </button>
+        </span>
+      ))}
+      {offered !== null && (
+        <button
+          type="button"
+          class="mention offered"
+          aria-label={`Mention ${nameOf(document.value, offered)}`}
+          title="Mention the selected part in the request"
+          onClick={() => mention(offered)}
+        >
+          + {nameOf(document.value, offered)}
+        </button>
+      )}
+    </>
+  );
+}
+
+const taskWords: Record<TaskProgress['task'], string> = {
+  seed_edit: 'the change',
+  type_hints: 'what other parts do',
+  relation_validity_reflection: 'mirror symmetries',
+  relation_validity_group: 'rows and rings',
+};
+
+function Asking({ tasks }: { tasks: readonly TaskProgress[] }) {
+  const done = tasks.reduce((sum, task) => sum + task.done, 0);
+  const of = tasks.reduce((sum, task) => sum + task.of, 0);
+  return (
+    <div class="asking">
+      <span class="spinner" aria-hidden="true" />
+      <div class="grow">
+        <p>Reading the request{of > 0 && `, ${done} of ${of} answers`}</p>
+        <p class="quiet">
+          {tasks
+            .filter((task) => task.of > 0)
+            .map((task) => `${taskWords[task.task]} ${task.done} of ${task.of}`)
+            .join(' · ')}
+        </p>
+      </div>
+      <button type="button" class="button" onClick={cancelRequest}>
+        Cancel
+      </button>
+    </div>
+  );
+}
+
+function Failed({ text, isSetting }: { text: string; isSetting: boolean }) {
+  return (
+    <div class="failed">
+      <Icon name="warning" />
+      <p class="grow">{text}</p>
+      {isSetting && (
+        <button type="button" class="button" onClick={() => (dialog.value = 'model')}>
+          Settings
+        </button>
+      )}
+      <button type="button" class="button icon-only" aria-label="Dismiss" onClick={dismiss}>
+        <Icon name="close" />
+      </button>
+    </div>
+  );
+}
+
+/** What sending will take, where it is paid for; else what can be tried. */
+function Below() {
+  const recorded = useRecorded();
+  const [first] = mentioned.value;
+  const isEmpty = requestText.value === '' && first === undefined;
+  if (request.value.kind === 'asking') return null;
+  if (!isEmpty && !isDemo.value) return <EstimateLine />;
+  const made = new Set(document.value.layers.map(({ layer }) => layer.request.toLowerCase()));
+  const open = recorded.filter((known) => !made.has(known.request.toLowerCase()));
+  if (open.length === 0 || (!isEmpty && request.value.kind !== 'failed')) return null;
+  return (
+    <div class="tries">
+      <span class="quiet">try:</span>
+      {open.map((known) => (
+        <button
+          key={`${known.request} ${known.mentioned.join()}`}
+          type="button"
+          class="try"
+          onClick={() => {
+            requestText.value = known.request;
+            mentioned.value = known.mentioned;
+            void sendRequest();
+          }}
+        >
+          {known.request}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** The recorded requests of the present gallery model. */
+function useRecorded(): readonly RecordedRequest[] {
+  const found = useSignal<readonly RecordedRequest[]>([]);
+  const source = document.value.model?.source;
+  const gallery = source?.kind === 'gallery' ? source.id : null;
+  useEffect(() => {
+    let current = true;
+    found.value = [];
+    if (gallery !== null)
+      void loadRecordings(gallery).then((recordings) => {
+        if (current) found.value = recordings?.requests ?? [];
+      });
+    return () => {
+      current = false;
+    };
+  }, [gallery, found]);
+  return found.value;
+}
+
+const estimateDelay = 500; // milliseconds after the last key
+
+function EstimateLine() {
+  const found = useSignal<Estimate | null>(null);
+  const text = requestText.value;
+  const parts = mentioned.value;
+  const { votes, provider } = settings.value;
+  // biome-ignore lint/correctness/useExhaustiveDependencies: they are what the estimate depends on
+  useEffect(() => {
+    let current = true;
+    const timer = setTimeout(() => {
+      estimateRequest()
+        .catch(() => null) // sending says what is wrong
+        .then((estimate) => {
+          if (current) found.value = estimate;
+        });
+    }, estimateDelay);
+    return () => {
+      current = false;
+      clearTimeout(timer);
+    };
+  }, [text, parts, votes, provider, found]);
+  if (found.value === null) return null;
+  const { calls, inputTokens } = found.value;
+  const cost = costOf({ input: inputTokens, output: 0 });
+  return (
+    <p class="quiet estimate">
+      {calls} answers, about {Math.round(inputTokens / 1000).toLocaleString('en')} thousand tokens to send
+      {cost !== null && `, ${cost.toFixed(cost < 0.1 ? 4 : 2)}`}; what comes back is on top
+    </p>
+  );
+}

@@ -1,0 +1,213 @@
+// What was understood of a request, in words, each line to be corrected: the reading, what other parts should do, which
+// relations give way.
+import { useSignal } from '@preact/signals';
+import type { Answer } from '../llm/session';
+import { costOf, isDemo } from '../llm/settings';
+import type { Layer } from '../program/types';
+import type { Hint } from '../session/document';
+import {
+  applyRequest,
+  askAgain,
+  chooseReading,
+  correctEdit,
+  dismiss,
+  requestLayer,
+  requestText,
+  type Understood,
+  whyUndecided,
+} from '../session/request';
+import { pointedAt, task } from '../session/session';
+import { Hints } from './HandPanel';
+import { Icon } from './Icon';
+
+export function ReadingCard({ state }: { state: Understood }) {
+  const { inference } = state.answer;
+  const { seed } = inference;
+  const undecided = whyUndecided(inference);
+  const layer = requestLayer.value;
+  const chosen = seed.readings[state.reading];
+  const open = useSignal(undecided !== null);
+  const note = layer && effectWords(layer);
+  return (
+    <section class="reading" aria-label="What was understood">
+      <header>
+        <button
+          type="button"
+          class="reading-title"
+          aria-expanded={open.value}
+          onClick={() => {
+            open.value = !open.value;
+          }}
+        >
+          <Icon name={open.value ? 'down' : 'right'} />
+          {layer !== null && chosen ? (
+            <span>
+              <span class="quiet">Understood:</span> {chosen.words}
+            </span>
+          ) : (
+            <span>{undecided ?? `“${state.request}” was understood, but is not applied`}</span>
+          )}
+        </button>
+        {layer !== null && seed.of > 1 && chosen && (
+          <span class="quiet votes">
+            {chosen.votes} of {seed.of}
+          </span>
+        )}
+        <button type="button" class="button icon-only" aria-label="Close what was understood" onClick={dismiss}>
+          <Icon name="close" />
+        </button>
+      </header>
+      {note && <p class="quiet note-line">{note}</p>}
+      {open.value && <Corrections state={state} />}
+    </section>
+  );
+}
+
+function Corrections({ state }: { state: Understood }) {
+  const { inference } = state.answer;
+  const { seed, relations } = inference;
+  const isApplied = requestLayer.value !== null;
+  const shape = state.model.shape;
+  return (
+    <div class="corrections">
+      {seed.readings.length > 0 && (
+        <fieldset>
+          <legend>{seed.readings.length > 1 ? 'Readings' : 'Reading'}</legend>
+          {seed.readings.map(({ words, votes }, i) => (
+            <label class="check" key={words}>
+              <input
+                type="radio"
+                name="reading"
+                checked={state.edit !== null && state.reading === i}
+                onChange={() => chooseReading(i)}
+              />
+              <span class="grow">{words}</span>
+              <span class="quiet votes">
+                {votes} of {seed.of}
+              </span>
+            </label>
+          ))}
+        </fieldset>
+      )}
+      {state.edit !== null && <Hints shape={shape} except="" chosen={hintsOf(state)} />}
+      {state.edit !== null && relations.length > 0 && (
+        <details open={relations.some(({ keep }) => !keep)}>
+          <summary>{keptWords(state)}</summary>
+          {relations.map(({ relation, words, votes, of }) => {
+            const point = () => {
+              const parts = shape.relations.find(({ id }) => id === relation)?.parts ?? [];
+              pointedAt.value = { parts, relations: [relation] };
+            };
+            const leave = () => {
+              pointedAt.value = null;
+            };
+            const disabled = state.edit?.disabled ?? [];
+            return (
+              <label class="check" key={relation} onPointerEnter={point} onPointerLeave={leave}>
+                <input
+                  type="checkbox"
+                  checked={!disabled.includes(relation)}
+                  onFocus={point}
+                  onBlur={leave}
+                  onChange={(event) => {
+                    const others = disabled.filter((id) => id !== relation);
+                    correctEdit({ disabled: event.currentTarget.checked ? others : [...others, relation] });
+                  }}
+                />
+                <span class="grow">Keep: {words}</span>
+                <span class="quiet votes">
+                  {votes} of {of}
+                </span>
+              </label>
+            );
+          })}
+        </details>
+      )}
+      <div class="row">
+        {!isApplied && state.edit !== null && (
+          <button
+            type="button"
+            class="button primary"
+            disabled={task.value !== null}
+            onClick={() => void applyRequest()}
+          >
+            Apply this
+          </button>
+        )}
+        {!isDemo.value && (
+          <button
+            type="button"
+            class="button"
+            title="Asks the language model once more"
+            disabled={requestText.value !== '' && requestText.value !== state.typed}
+            onClick={() => void askAgain(state)}
+          >
+            Ask again
+          </button>
+        )}
+        <span class="quiet grow votes">{spentWords(state.answer)}</span>
+      </div>
+      <Failures answer={state.answer} />
+    </div>
+  );
+}
+
+/** The hints of the edit, read and written like a signal. */
+const hintsOf = (state: Understood) => ({
+  get value(): ReadonlyMap<string, Hint> {
+    return new Map(Object.entries(state.edit?.hints ?? {}));
+  },
+  set value(hints: ReadonlyMap<string, Hint>) {
+    correctEdit({ hints: Object.fromEntries(hints) });
+  },
+});
+
+function keptWords({ edit, answer }: Understood): string {
+  const { relations } = answer.inference;
+  const broken = relations.filter(({ relation }) => edit?.disabled.includes(relation)).length;
+  const all = relations.length === 1 ? 'Its symmetry' : `All ${relations.length} symmetries`;
+  if (broken === 0) return `${all} ${relations.length === 1 ? 'is' : 'are'} kept`;
+  return `${broken} of ${relations.length} symmetries may break`;
+}
+
+/** What has to be said of a layer that does less than one may have hoped. */
+function effectWords({ parameter, statements }: Layer): string | null {
+  if (parameter.max - parameter.min < 1e-6) return 'Nothing can move: at any other position a part would collapse.';
+  const followers = statements.filter(({ op, why }) => op !== 'keep_fixed' && why?.kind !== 'seed');
+  return followers.length === 0 ? 'No other part has to follow.' : null;
+}
+
+const count = (n: number, what: string) => `${n.toLocaleString('en')} ${what}${n === 1 ? '' : 's'}`;
+
+function spentWords(answer: Answer): string {
+  const { calls, kept, tokens } = answer;
+  if (isDemo.value) return 'recorded answers';
+  const cost = costOf(tokens);
+  return [
+    calls > 0 && `${count(calls, 'answer')}, ${count(tokens.input + tokens.output, 'token')}`,
+    calls > 0 && cost !== null && `cost ${cost.toFixed(cost < 0.1 ? 4 : 2)}`,
+    kept > 0 && `${kept} kept from before`,
+  ]
+    .filter(Boolean)
+    .join(' · ');
+}
+
+/** What of the asking failed without stopping it. */
+function Failures({ answer }: { answer: Answer }) {
+  const { failures, inference } = answer;
+  const refused = inference.refused;
+  return (
+    <>
+      {failures[0] && (
+        <p class="quiet">
+          {count(failures.length, 'answer')} did not come. {failures[0].message}
+        </p>
+      )}
+      {refused[0] && (
+        <p class="quiet">
+          {count(refused.length, 'answer')} could not be used: {refused[0].error.cause}.
+        </p>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,30 @@
+import type { MethodResult, Prompt } from '../src/worker/protocol';
+
+export interface OfferedRequest {
+  readonly model: string;
+  readonly request: string;
+  readonly mentioned?: readonly string[];
+}
+export type RenderedRequest = OfferedRequest & MethodResult<'prompts'>;
+export interface Recording {
+  readonly hash: string;
+  readonly task: string;
+  readonly model: string;
+  readonly date: string;
+  readonly replies: readonly { readonly vote: number; readonly text: string }[];
+}
+export function readRequests(): OfferedRequest[];
+export function readRecordings(folder?: string): Map<string, Recording>;
+export function renderRequests(
+  core: (method: string, parameters: unknown, buffers?: Uint8Array[]) => { result: unknown; buffers: Uint8Array[] },
+  requests: readonly OfferedRequest[],
+): RenderedRequest[];
+export function compare(
+  rendered: readonly RenderedRequest[],
+  recordings: ReadonlyMap<string, Recording>,
+): {
+  offered: RenderedRequest[];
+  open: RenderedRequest[];
+  missing: { model: string; request: string; prompt: Prompt }[];
+  stale: string[];
+};

@@ -1,0 +1,75 @@
+// The recorded replies of the repository: prompts/requests.json says which requests the page offers without a key, and
+// prompts/recordings/<hash of the prompt>.json holds what a language model answered, unedited.
+import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { root } from './core.mjs';
+
+const requestsFile = join(root, 'prompts', 'requests.json');
+const recordingsFolder = join(root, 'prompts', 'recordings');
+
+/** @returns [{model, request, mentioned}] */
+export function readRequests() {
+  return existsSync(requestsFile) ? JSON.parse(readFileSync(requestsFile, 'utf8')) : [];
+}
+
+/** @returns Map of hash → {hash, task, model, date, replies: [{vote, text}]} */
+export function readRecordings(folder = recordingsFolder) {
+  const found = new Map();
+  if (!existsSync(folder)) return found;
+  for (const file of readdirSync(folder).filter((name) => name.endsWith('.json'))) {
+    const recording = JSON.parse(readFileSync(join(folder, file), 'utf8'));
+    if (file !== `${recording.hash}.json`) throw new Error(`${file} holds the recording of ${recording.hash}.`);
+    found.set(recording.hash, recording);
+  }
+  return found;
+}
+
+/** Adds replies to the recording of a prompt; votes that are there already are replaced. */
+export function writeReplies({ hash, task }, model, replies, date = new Date().toISOString().slice(0, 10)) {
+  mkdirSync(recordingsFolder, { recursive: true });
+  const file = join(recordingsFolder, `${hash}.json`);
+  const before = existsSync(file) ? JSON.parse(readFileSync(file, 'utf8')) : null;
+  // Votes of two models would not be votes on the same thing.
+  const others = before?.model === model ? before.replies : [];
+  const byVote = new Map([...others, ...replies].map((reply) => [reply.vote, reply]));
+  const sorted = [...byVote.values()].sort((a, b) => a.vote - b.vote);
+  writeFileSync(file, `${JSON.stringify({ hash, task, model, date, replies: sorted }, null, 1)}\n`);
+}
+
+/**
+ * Renders the prompts of requests.
+ * @param core from loadCore()
+ * @returns [{model, request, mentioned, prompts: [{task, relation, text, hash}], schemas}]
+ */
+export function renderRequests(core, requests) {
+  const { result, buffers } = core('gallery', {});
+  let opened = null;
+  return requests.map(({ model, request, mentioned = [] }) => {
+    const index = result.models.findIndex(({ id }) => id === model);
+    if (index < 0) throw new Error(`prompts/requests.json: the gallery has no model ${model}.`);
+    // Under the name that the page opens it by, which may stand in the prompts.
+    const name = result.models[index].file.replace(/\.glb$/, '');
+    if (opened !== model) core('open', { name, external: [] }, [buffers[index]]);
+    opened = model;
+    return { model, request, mentioned, ...core('prompts', { request, mentioned }).result };
+  });
+}
+
+/**
+ * What of the requests is recorded.
+ * @returns offered: those with every prompt recorded; open: those with none; missing: prompts without a recording of
+ *   requests with some; stale: hashes of recordings that belong to no prompt (a template or a model has changed)
+ */
+export function compare(rendered, recordings) {
+  const known = new Set(rendered.flatMap(({ prompts }) => prompts.map(({ hash }) => hash)));
+  const isRecorded = ({ hash }) => (recordings.get(hash)?.replies.length ?? 0) > 0;
+  const some = rendered.filter(({ prompts }) => prompts.some(isRecorded));
+  return {
+    offered: rendered.filter(({ prompts }) => prompts.every(isRecorded)),
+    open: rendered.filter(({ prompts }) => !prompts.some(isRecorded)),
+    missing: some.flatMap(({ model, request, prompts }) =>
+      prompts.filter((prompt) => !isRecorded(prompt)).map((prompt) => ({ model, request, prompt })),
+    ),
+    stale: [...recordings.keys()].filter((hash) => !known.has(hash)),
+  };
+}
