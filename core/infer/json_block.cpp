@@ -85,26 +85,26 @@ struct Fenced {
 
 std::vector<Fenced> fenced_blocks(std::string_view reply) {
   std::vector<Fenced> blocks;
-  std::optional<std::size_t> start;  // of the content of the open block
+  std::size_t start = reply.npos;  // of the content of the open block, if one is open
   for (std::size_t line = 0; line < reply.size();) {
     const std::size_t next = std::min(reply.find('\n', line), reply.size() - 1) + 1;
     std::string_view text = reply.substr(line, next - line);
     while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
     const bool fence = text.starts_with("```") || text.starts_with("~~~");
     if (fence && text.find(text.substr(0, 3), 3) == text.npos) {  // else a whole block on one line: bare_blocks()
-      if (start) {
-        blocks.push_back({reply.substr(*start, line - *start), true});
-        start.reset();
+      if (start != reply.npos) {
+        blocks.push_back({reply.substr(start, line - start), true});
+        start = reply.npos;
       } else {
         start = next;
       }
-    } else if (start && text.find("```") != text.npos) {  // closed on the line of the JSON's end
-      blocks.push_back({reply.substr(*start, line + reply.substr(line).find("```") - *start), true});
-      start.reset();
+    } else if (start != reply.npos && text.find("```") != text.npos) {  // closed on the line of the JSON's end
+      blocks.push_back({reply.substr(start, line + reply.substr(line).find("```") - start), true});
+      start = reply.npos;
     }
     line = next;
   }
-  if (start) blocks.push_back({reply.substr(*start), false});
+  if (start != reply.npos) blocks.push_back({reply.substr(start), false});
   return blocks;
 }
 
