@@ -30,8 +30,8 @@ struct Abstraction {
 /// Reads a GLB or glTF file and finds its parts, hexahedra, relations and virtual parts (ParSEL §4.1, supplement §3.1,
 /// §3.3). `name` is the shape's name, usually the file's without extension. The result passes validate().
 /// Deterministic: the same bytes give the same shape, ids and numbers. Fails when the file is damaged, too large, or
-/// holds no triangle mesh that can be read; what else is left out stands in shape.warnings. `labels` are cleaned like the
-/// file's own; one that names no part of the file is refused, its key being the error's place.
+/// holds no triangle mesh that can be read; what else is left out stands in shape.warnings. `labels` are cleaned like
+/// the file's own; one that names no part of the file is refused, its key being the error's place.
 Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name, const ExternalBuffers& buffers = {},
                                    const Labels& labels = {});
 

@@ -78,6 +78,21 @@ describe('the boundary between the page and the core', () => {
     expect(invoke('propagate', { edit: inference.edit }).message).toHaveProperty('result.program');
   });
 
+  it('opens a model under labels that are given, and refuses those of no part', () => {
+    const { message, buffers } = invoke('gallery', {});
+    const { models } = (message as { result: { models: { id: string }[] } }).result;
+    const file = buffers[models.findIndex(({ id }) => id === 'chair')] as Uint8Array;
+    const open = (labels?: Record<string, string>) =>
+      invoke('open', { name: 'chair', external: [], ...(labels ? { labels } : {}) }, [file]).message as {
+        result?: { shape: { parts: { id: string; node: number }[] } };
+        error?: { place: string };
+      };
+    const seat = open().result?.shape.parts.find(({ id }) => id === 'seat');
+    const relabelled = open({ [`node:${seat?.node}/0`]: 'lid' }).result?.shape.parts;
+    expect(relabelled?.find(({ node }) => node === seat?.node)?.id).toBe('lid');
+    expect(open({ 'node:999': 'lid' }).error?.place).toBe('node:999');
+  });
+
   it('answers with the version of the project', async () => {
     const cmake = await readFile(fileURLToPath(new URL('../../CMakeLists.txt', import.meta.url)), 'utf8');
     expect(invoke('version', {}).message).toEqual({ result: { version: cmake.match(/VERSION (\d+\.\d+\.\d+)/)?.[1] } });

@@ -3,7 +3,7 @@
 // frame. Letting go keeps the layer, Escape leaves everything as it was.
 import { signal } from '@preact/signals';
 import { statementText } from '../program/text';
-import type { Axis, LocalTriple, Shape, ShapePart, Statement, Vec3 } from '../program/types';
+import type { Axis, LocalTriple, ReflectionRelation, Shape, ShapePart, Statement, Vec3 } from '../program/types';
 import { withRequest } from './document';
 import { type Measure, measureOf, pointIn } from './measure';
 import type { ModelCore } from './model_core';
@@ -73,13 +73,19 @@ export function faceNormal(corners: ArrayLike<number>, part: number, feature: Lo
 const opposite = (feature: LocalTriple) => feature.map((sign) => 0 - sign) as unknown as LocalTriple;
 
 /** Whether a mirror symmetry of the shape goes through the middle of a part, across one of its axes. */
-function isMirrored({ relations }: Shape, { corners, axes: own }: ShapePart, axis: Axis): boolean {
+function isMirrored(shape: Shape, { corners, axes: own }: ShapePart, axis: Axis): boolean {
   const centre = pointIn(corners.flat(), 0, [0, 0, 0]);
-  return relations.some((relation) => {
-    if (relation.kind !== 'reflection' || Math.abs(dot(relation.normal, own[axis])) < 0.98) return false;
-    const off = centre.map((value, i) => value - (relation.origin[i] ?? 0)) as unknown as Vec3;
-    return Math.abs(dot(relation.normal, off)) < 0.01;
+  return mirrorsAcross(shape, own[axis]).some(({ normal, origin }) => {
+    const off = centre.map((value, i) => value - (origin[i] ?? 0)) as unknown as Vec3;
+    return Math.abs(dot(normal, off)) < 0.01;
   });
+}
+
+/** The mirror symmetries whose plane is across a direction. */
+function mirrorsAcross({ relations }: Shape, direction: Vec3): readonly ReflectionRelation[] {
+  return relations
+    .filter((relation) => relation.kind === 'reflection')
+    .filter(({ normal }) => Math.abs(dot(normal, direction)) > 0.98);
 }
 
 /**
@@ -125,10 +131,12 @@ export async function beginPull(core: ModelCore, grab: Grab, request: string): P
     pull.value = { ...begun, layer: follow(last.key, index, grab.feature, direction, seed) };
     return true;
   }
+  // What is across the pull cannot stay the mirror image of a side that moves alone.
+  const disabled = grab.oneSided ? mirrorsAcross(model.shape, direction).map(({ id }) => id) : [];
   abort = new AbortController();
   const { signal: cancelled } = abort;
   try {
-    const found = await core.propagate(model, { seed: [seed], disabled: [], hints: {} }, { signal: cancelled });
+    const found = await core.propagate(model, { seed: [seed], disabled, hints: {} }, { signal: cancelled });
     if (pull.peek() !== begun || document.peek().model !== model) return false;
     const [entry] = entriesOf({ ...found, program: withRequest(found.program, request) }) ?? [];
     if (entry === undefined) throw new Error('Nothing came of it');

@@ -136,10 +136,9 @@ function Handle({ part, id, feature, isSelected }: HandleProps) {
     const request = `${kind === 'whole' ? 'Move' : 'Pull'} ${what}`;
     return beginPull(core, { part: id, feature, axis, oneSided }, request);
   };
-  const along = ({ x, y }: Point, at = pull.peek()) => {
-    const on = stage.peek();
-    if (!on || at === null) return 0;
-    return on.distanceAlong(origin.current, at.direction, x, y);
+  const along = ({ x, y }: Point) => {
+    const direction = pull.peek()?.direction;
+    return direction ? (stage.peek()?.distanceAlong(origin.current, direction, x, y) ?? 0) : 0;
   };
   const origin = useRef<readonly [number, number, number]>([0, 0, 0]);
 
@@ -150,11 +149,11 @@ function Handle({ part, id, feature, isSelected }: HandleProps) {
     const moved = { x: event.clientX - from.x, y: event.clientY - from.y };
     const axis = axisOfDrag((points) => on.projectMean(points), origin.current, moved);
     void begin(axis, event.altKey).then((ready) => {
-      const press = pressed.current;
       if (!ready) return;
-      if (press === null) return void endPull(); // let go before the core had answered
-      press.from = along(press);
-      pullTo(along(latest.current) - press.from);
+      const zero = along(from);
+      pullTo(along(latest.current) - zero);
+      if (pressed.current) pressed.current.from = zero;
+      else endPull(); // the hand let go before the core had answered
     });
   };
 

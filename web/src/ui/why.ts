@@ -103,6 +103,14 @@ function stillWords(document: Document, shape: Shape, layer: Layer, id: string, 
   const moved = new Set(layer.statements.flatMap((s) => ('part' in s ? [s.part] : [])));
   const tied = relations.filter(({ parts }) => parts.some((other) => other !== id && moved.has(other)));
   if (tied.length === 0) return 'Stays: no part that it is tied to is changed.';
+  if (layer.relations.length === 0) return 'Stays: no statement is about it.';
+  const kept = new Set(layer.relations.filter(({ status }) => status === 'held').map((report) => report.id));
+  const lost = tied.filter((relation) => !kept.has(relation.id));
+  if (lost.length > 0) {
+    return sentence(
+      `stays, and this is given up: ${listWords(lost.map((other) => relationWords(document, other, id)))}`,
+    );
+  }
   return sentence(
     `stays: ${tied.length === 1 ? 'its one relation' : `all its ${tied.length} relations`} to changed parts ${tied.length === 1 ? 'holds' : 'hold'} without it`,
   );
@@ -129,12 +137,13 @@ export function brokenWords(shape: Shape, layer: Layer, relation: ShapeRelation,
   const off = distance(shape, worst);
   if (found === null) return `comes apart by up to ${off}`;
   const { below, above, rest, measure } = found;
-  const at = (value: number | null) => {
+  const isUnsigned = measure.what === 'distance' || measure.what === 'angle';
+  const at = (value: number | null, side: -1 | 1) => {
     if (value === null) return [];
     const change = value - rest;
     const amount = formatMeasure(measure.what, Math.abs(change), Math.max(rest, value));
-    return [`${change < 0 ? '−' : '+'}${amount}`];
+    return [`${(isUnsigned ? side : change) < 0 ? '−' : '+'}${amount}`];
   };
   const verb = relation.kind === 'reflection' ? 'no longer mirrored' : 'loose';
-  return `${verb} beyond ${[...at(below), ...at(above)].join(' and ')}, by up to ${off}`;
+  return `${verb} beyond ${[...at(below, -1), ...at(above, 1)].join(' and ')}, by up to ${off}`;
 }
