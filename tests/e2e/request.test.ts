@@ -243,7 +243,7 @@ describe('what was understood', () => {
     const { page } = await ready('anthropic');
     await done(page);
     answering([widenSeat], (task) =>
-      task === 'type_hints' ? { hints: { back_legs: 'scale', slat_group: 'keep_fixed' } } : { keep: false },
+      task === 'type_hints' ? { hints: { slat_group: 'change_delta' } } : { keep: false },
     );
     await say(page, 'widen the seat');
     await composer(page).getByText('Understood:').click();

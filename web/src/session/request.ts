@@ -177,6 +177,10 @@ export async function estimateRequest(): Promise<Estimate | null> {
   return estimate(prompts, settings.peek().votes);
 }
 
+let attempt = 0;
+/** How the layer of the present request was taken out of the document, while it is made anew. */
+let withdrawn: 'undone' | 'removed' | null = null;
+
 /** Takes another reading of the request. */
 export function chooseReading(reading: number): void {
   const state = request.peek();
@@ -196,13 +200,10 @@ export function correctEdit(change: Partial<Pick<EditInput, 'hints' | 'disabled'
 }
 
 function correct(state: Understood): void {
+  const isApplied = requestLayer.peek() !== null || withdrawn !== null;
   request.value = state;
-  if (state.key !== null) void applyRequest();
+  if (isApplied) void applyRequest();
 }
-
-let attempt = 0;
-/** How the layer of the present request was taken out of the document, to be made anew. */
-let withdrawn: 'undone' | 'removed' | null = null;
 
 function withdraw(key: number | null, label: string): typeof withdrawn {
   const has = () => document.peek().layers.some((entry) => entry.key === key);
