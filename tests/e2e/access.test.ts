@@ -60,6 +60,14 @@ describe.each([
       ['main', async () => page.locator('summary').first().click()],
       ['hand', async () => page.getByRole('button', { name: 'Edit by hand' }).click()],
       ['selected', async () => page.evaluate(() => parsel.select('seat'))],
+      [
+        'apart',
+        async () => {
+          await page.locator('canvas').focus();
+          await page.keyboard.press('e');
+        },
+      ],
+      ['tour', async () => page.getByRole('button', { name: 'Show me around' }).click()],
       ['export', async () => page.getByRole('button', { name: 'Export' }).click()],
       ['open', async () => page.locator('.bar .model').click()],
       ['share', async () => page.getByRole('button', { name: 'Share' }).click()],
@@ -78,7 +86,7 @@ describe.each([
       await page.waitForTimeout(200);
       found.push(...(await serious(page)).map((text) => `${name}: ${text}`));
       await page.screenshot({ path: `${outputFolder}/${name}-${colorScheme}-${viewport.width}.png` });
-      if (!['main', 'hand', 'selected'].includes(name)) await page.keyboard.press('Escape');
+      if (!['main', 'hand', 'selected', 'apart'].includes(name)) await page.keyboard.press('Escape');
     }
     expect(found).toEqual([]);
     expect(complaints).toEqual([]);

@@ -26,6 +26,7 @@ beforeEach(async () => {
   ({ page, complaints } = await openModel(browser, url, stool));
   await page.getByRole('button', { name: 'seat', exact: true }).click();
   await handle('Pull left of seat').waitFor();
+  await page.waitForFunction(() => parsel.stage()?.isStill()); // the camera has arrived
 });
 
 const handle = (name: string) => page.getByRole('button', { name, exact: true });
