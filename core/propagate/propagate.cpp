@@ -14,6 +14,8 @@ namespace {
 constexpr const char* stage = "propagate";
 /// A seed must be able to go at least this far to one side, as a share of the limit.
 constexpr double least_range = 0.02;
+/// Parts that the search for revisions may solve, about: it bounds its time on large models.
+constexpr int revision_work = 600;
 
 Motion still() {
   Motion motion;
@@ -25,11 +27,16 @@ bool is_alive(const Corners& corners, const Corners& rest) {
   return corners.allFinite() && relative_jacobians(corners, rest).minCoeff() > collapse_ratio;
 }
 
+/// Hints that nobody gave: what the search does otherwise after it has seen where its first choices lead.
+using Revisions = std::map<PartIndex, Hint>;
+
 class Loop {
  public:
-  Loop(const Shape& shape, ResolvedRequest request, const PropagateOptions& options, const Progress& progress)
+  Loop(const Shape& shape, const ResolvedRequest& request, const Revisions& revisions, const PropagateOptions& options,
+       const Progress& progress)
       : shape_(shape),
-        request_(std::move(request)),
+        request_(request),
+        revisions_(revisions),
         options_(options),
         progress_(progress),
         graph_(shape, request_.dissolved, request_.disabled),
@@ -44,8 +51,9 @@ class Loop {
     layer_.request = options.request;
   }
 
-  Result<Propagation> run() {
-    if (Status status = apply_seeds(); !status.ok()) return status.error();
+  /// Finds the edits. Once.
+  Status search() {
+    if (Status status = apply_seeds(); !status.ok()) return status;
     hold_fixed_parts();
     int done = static_cast<int>(layer_.statements.size());
     const int total = static_cast<int>(graph_.parts().size());
@@ -53,10 +61,59 @@ class Loop {
       report(progress_, shape_.parts[*next].name, std::min(done++, total), total);
       edit_part(*next);
     }
+    return success();
+  }
+
+  /// Relations that the edits found leave broken.
+  std::vector<RelationIndex> broken_relations() const {
+    std::vector<RelationIndex> broken;
+    for (const PartIndex part : graph_.parts()) {
+      if (!edits_[part]) continue;
+      for (const RelationIndex relation : graph_.relations(part)) {
+        const PartIndex other = graph_.other(relation, part);
+        if (edits_[other] && other < part) continue;
+        std::vector<PointConstraint> constraints;
+        add_constraints(graph_, relation, other, edits_, constraints);
+        const bool both = edits_[other] && !edits_[other]->steps.empty() && !edits_[part]->steps.empty();
+        const Motion motion = edits_[other] ? edits_[other]->motion : still();
+        if (residuals(constraints, motion)[0].second > (both ? delta_both_edited : delta_one_edited))
+          broken.push_back(relation);
+      }
+    }
+    return broken;
+  }
+
+  /// Hints that might have served better: for the parts that the search edited by itself, up to two relations away from
+  /// a broken one, to be stretched where they were moved, and the other way round.
+  std::vector<std::pair<PartIndex, Hint>> possible_revisions() const {
+    std::set<PartIndex> near;
+    for (const RelationIndex relation : broken_relations())
+      near.insert(shape_.relations[relation].parts.begin(), shape_.relations[relation].parts.end());
+    for (const PartIndex part : std::set<PartIndex>(near)) {
+      for (const RelationIndex relation : graph_.relations(part)) near.insert(graph_.other(relation, part));
+    }
+    std::vector<std::pair<PartIndex, Hint>> possible;
+    for (const PartIndex part : graph_.parts()) {
+      if (!edits_[part] || near.count(part) == 0 || request_.hints.count(part) > 0 || revisions_.count(part) > 0)
+        continue;
+      if (std::find(request_.seed_parts.begin(), request_.seed_parts.end(), part) != request_.seed_parts.end())
+        continue;
+      const auto uses = [&](Op op) {
+        const std::vector<Step>& steps = edits_[part]->steps;
+        return std::any_of(steps.begin(), steps.end(), [op](const Step& step) { return step.what.op == op; });
+      };
+      if (!uses(Op::scale_1d)) possible.emplace_back(part, Hint::scale);
+      if (!uses(Op::translate)) possible.emplace_back(part, Hint::translate);
+    }
+    return possible;
+  }
+
+  /// The program and its proof. After search(), once.
+  Propagation finish() {
     note_fixed_parts();
     note_unused_hints();
     say_why_it_stopped();
-    return finish();
+    return conclude();
   }
 
  private:
@@ -249,6 +306,8 @@ class Loop {
     if (const auto found = request_.hints.find(part); found != request_.hints.end()) {
       hint = found->second;
       trace.hint = to_string(*hint);
+    } else if (const auto revision = revisions_.find(part); revision != revisions_.end()) {
+      hint = revision->second;
     }
     const std::vector<PointConstraint>& constraints = pulls_[part];
     std::vector<std::string> broken;
@@ -258,9 +317,18 @@ class Loop {
     }
     Solution solution;
     const std::vector<PartIndex> sources = reference_parts(part);
-    if (!mirror_neighbour(part, solution, trace)) {
+    const auto mirrored = mirror_neighbour(part);
+    if (mirrored && mirrored->lost == 0) {
+      solution = mirrored->solution;
+      trace.why = mirrored->why;
+    } else {
       const Scene scene{graph_, edits_, goals_, options_.parameter, at_, solve_options_};
       solution = solve_part(scene, part, hint, constraints, trace);
+      // A mirror image that tears more joints than it restores is none that anyone wants.
+      if (mirrored && mirrored->lost <= lost_with(part, solution.steps)) {
+        solution = mirrored->solution;
+        trace.why = mirrored->why;
+      }
     }
     if (solution.outcome == Outcome::left_alone) {
       trace.kind = "left_alone";
@@ -293,18 +361,33 @@ class Loop {
     pull_neighbours(part);
   }
 
+  struct Mirrored {
+    Solution solution;
+    int lost = 0;  ///< relations to edited parts that it breaks
+    std::string why;
+  };
+
   /// E* = T(E), of the first edited neighbour by reflection that has a mirror image here.
-  bool mirror_neighbour(PartIndex part, Solution& solution, TraceStep& trace) const {
+  std::optional<Mirrored> mirror_neighbour(PartIndex part) const {
     for (const auto& [relation, by] : residuals(pulls_[part], still())) {
       if (by <= exact || shape_.relations[relation].kind != RelationKind::reflection) continue;
       const PartIndex other = graph_.other(relation, part);
       auto steps = reflected(shape_, shape_.relations[relation], other, edits_[other]->steps);
       if (!steps) continue;
-      trace.why = "mirrors " + id(other) + " (" + id(relation) + ")";
-      solution = {Outcome::solved, WhyKind::symmetry, std::move(*steps)};
-      return true;
+      const int lost = lost_with(part, *steps);
+      return Mirrored{{Outcome::solved, WhyKind::symmetry, std::move(*steps)},
+                      lost,
+                      "mirrors " + id(other) + " (" + id(relation) + ")"};
     }
-    return false;
+    return std::nullopt;
+  }
+
+  /// Relations of the part to edited parts that these steps break.
+  int lost_with(PartIndex part, const std::vector<Step>& steps) const {
+    const double allowed = steps.empty() ? delta_one_edited : delta_both_edited;
+    int lost = 0;
+    for (const auto& [relation, by] : residuals(pulls_[part], motion_of(shape_, part, steps))) lost += by > allowed;
+    return lost;
   }
 
   /// Whose points and axes a statement on the part may name, the nearest first: the part's own, its neighbours', those
@@ -363,7 +446,7 @@ class Loop {
     }
   }
 
-  Result<Propagation> finish() {
+  Propagation conclude() {
     Propagation result;
     result.program.shape_name = shape_.name;
     result.program.shape_sha256 = shape_.sha256;
@@ -391,7 +474,8 @@ class Loop {
   }
 
   const Shape& shape_;
-  ResolvedRequest request_;
+  const ResolvedRequest& request_;
+  const Revisions& revisions_;
   PropagateOptions options_;
   const Progress& progress_;
   SolveOptions solve_options_;
@@ -406,13 +490,62 @@ class Loop {
   Trace trace_;
 };
 
+/// The revisions with which fewest relations break, found greedily. The search takes one part after the other and never
+/// looks back; a part that it moved with its first edited neighbour often must stretch once the neighbour at its other
+/// end is known.
+Revisions find_revisions(const Shape& shape, const ResolvedRequest& request, const PropagateOptions& options,
+                         const Loop& first, const Progress& progress) {
+  const auto active = static_cast<int>(active_parts(shape).size());
+  int budget = std::clamp(revision_work / std::max(active, 1), 4, 48);
+  Revisions chosen;
+  std::size_t fewest = first.broken_relations().size();
+  auto possible = first.possible_revisions();
+  const int total = budget;
+  while (fewest > 0 && budget > 0) {
+    std::optional<Revisions> better;
+    std::vector<std::pair<PartIndex, Hint>> next;
+    for (const auto& [part, hint] : possible) {
+      if (budget-- <= 0) break;
+      report(progress, "looking for a way that keeps more", total - budget, total);
+      Revisions tried = chosen;
+      tried[part] = hint;
+      Loop loop(shape, request, tried, options, {});
+      if (!loop.search().ok()) continue;
+      const std::size_t broken = loop.broken_relations().size();
+      if (broken >= fewest) continue;
+      fewest = broken;
+      better = std::move(tried);
+      next = loop.possible_revisions();
+    }
+    if (!better) break;
+    chosen = std::move(*better);
+    possible = std::move(next);
+  }
+  return chosen;
+}
+
 }  // namespace
 
 Result<Propagation> propagate(const Shape& shape, const EditRequest& request, const PropagateOptions& options,
                               const Progress& progress) {
-  auto resolved = resolve(request, shape);
+  const auto resolved = resolve(request, shape);
   if (!resolved.ok()) return resolved.error();
-  return Loop(shape, std::move(resolved.value()), options, progress).run();
+  const Revisions none;
+  Loop first(shape, *resolved, none, options, progress);
+  if (const Status found = first.search(); !found.ok()) return found.error();
+  if (!options.revisions) return first.finish();
+  const std::size_t broken = first.broken_relations().size();
+  const Revisions revisions = broken == 0 ? none : find_revisions(shape, *resolved, options, first, progress);
+  if (revisions.empty()) return first.finish();
+  Loop second(shape, *resolved, revisions, options, progress);
+  if (const Status found = second.search(); !found.ok()) return found.error();
+  const std::size_t kept = broken - second.broken_relations().size();
+  Propagation result = second.finish();
+  for (const auto& [part, hint] : revisions) {
+    result.trace.notes.push_back("a second look: " + shape.parts[part].id + " takes a " + std::string(to_string(hint)) +
+                                 ", so that " + std::to_string(kept) + " more relations are kept");
+  }
+  return result;
 }
 
 }  // namespace parsel

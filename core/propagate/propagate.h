@@ -2,8 +2,12 @@
 //
 // The loop: apply the seed edits; as long as a relation between an edited and an unedited part is broken, take the part
 // with the most of them (ties by id), find its edit and add it. Symmetry first: the mirror image of a mirrored
-// neighbour's edit; then attachments, by solve_part(). A relation that an edit leaves broken is recorded and not
-// chased.
+// neighbour's edit, unless that breaks more relations than it restores; then attachments, by solve_part(). A relation
+// that an edit leaves broken is recorded and not chased.
+//
+// A second look, beyond the paper: when relations stay broken, single parts near them are made to stretch where they
+// were moved, or the other way round, and the whole is searched again; what breaks fewest is kept. The paper's loop
+// never looks back, so that the side of a bed that was moved with its foot end tears off the head end.
 //
 // Groups. The virtual parent of a translation or rotation group stands for its instances, until a seed on one of them,
 // or "disabled", dissolves the group. Its extent follows its neighbours like that of any part; where it must spread
@@ -26,6 +30,7 @@ struct PropagateOptions {
   double limit = tau;            ///< the range sought is within ±limit
   bool neighbour_edits = true;   ///< off for the ablation of ParSEL §7.3
   bool breaking_edits = true;    ///< likewise
+  bool revisions = true;         ///< likewise: a second look at parts near relations that stay broken
 };
 
 struct Propagation {

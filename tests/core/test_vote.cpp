@@ -33,7 +33,7 @@ const std::string widen = R"({"op": "scale_1d", "part": "seat", "direction": "x"
 const std::string widen_from_right = R"({"op": "scale_1d", "part": "seat", "direction": "x", "origin": "right"})";
 const std::string narrow = R"({"op": "scale_1d", "part": "seat", "direction": "x", "amount": "-x"})";
 const std::string deepen = R"({"op": "scale_1d", "part": "seat", "direction": "z"})";
-const std::string raise = R"({"op": "translate", "part": "seat", "direction": "up"})";
+const std::string raised = R"({"op": "translate", "part": "seat", "direction": "up"})";
 const std::string raise_too = R"({"op": "translate", "part": "seat", "direction": [0, -1, 0], "amount": "-2*x"})";
 const std::string unclear = R"({"unclear": "The chair has no wheels."})";
 
@@ -49,7 +49,7 @@ TEST_CASE("readings are sentences") {
   CHECK(words(widen) == "widen seat about its centre, left and right");
   CHECK(words(narrow) == "narrow seat about its centre, left and right");
   CHECK(words(deepen) == "make seat deeper about its centre, front and back");
-  CHECK(words(raise) == "move seat up");
+  CHECK(words(raised) == "move seat up");
   CHECK(words(raise_too) == "move seat up");
   CHECK(words(R"({"op": "scale_1d", "part": "leg_front_left", "direction": "y", "origin": "bottom"})") ==
         "make front left leg taller about its bottom, up and down");
@@ -69,7 +69,7 @@ TEST_CASE("readings are sentences") {
         "fewer of " + name + " (t1), in the same space");
   CHECK(words(R"({"op": "change_delta", "relation": "t1"})") ==
         "space " + name + " (t1) further apart, from the middle");
-  CHECK(words("[" + widen + ", " + raise + "]") == words(widen) + "; " + words(raise));
+  CHECK(words("[" + widen + ", " + raised + "]") == words(widen) + "; " + words(raised));
 }
 
 TEST_CASE("seeds are counted by operator, operand and way") {
@@ -83,8 +83,8 @@ TEST_CASE("seeds are counted by operator, operand and way") {
   CHECK_FALSE(five.reason.has_value());
 
   CHECK(voted({widen, narrow}).readings.size() == 2);
-  CHECK(voted({raise, raise_too}).readings.size() == 1);
-  CHECK(voted({"[" + widen + ", " + raise + "]", "[" + raise + ", " + widen + "]"}).readings.size() == 1);
+  CHECK(voted({raised, raise_too}).readings.size() == 1);
+  CHECK(voted({"[" + widen + ", " + raised + "]", "[" + raised + ", " + widen + "]"}).readings.size() == 1);
   const SeedVote tie = voted({deepen, widen});
   CHECK(tie.outcome == SeedVote::Outcome::split);
   CHECK(tie.readings[0].words == words(deepen));
@@ -97,7 +97,7 @@ TEST_CASE("outcomes") {
   CHECK(voted({unclear, unclear, widen}).reason == "The chair has no wheels.");
   CHECK(voted({unclear, widen}).outcome == SeedVote::Outcome::split);
   CHECK(voted({unclear, widen, widen}).outcome == SeedVote::Outcome::decided);
-  CHECK(voted({widen, widen, deepen, deepen, raise}).outcome == SeedVote::Outcome::split);
+  CHECK(voted({widen, widen, deepen, deepen, raised}).outcome == SeedVote::Outcome::split);
 }
 
 TEST_CASE("hints are kept at 60 %") {
