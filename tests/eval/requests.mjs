@@ -176,6 +176,8 @@ for (const { model, request, kind, gallery: id, edit, unclear } of expected) {
   rows.push({ model, request, kind, outcome: voted.seed.outcome, refused: voted.refused.length, ...results.voting });
 }
 
+if (expected.length > 0 && [...recordings.values()].every(({ replies }) => replies.length === 1)) delete variants.voting;
+
 const number = (value) => (Number.isFinite(value) ? value.toFixed(3) : 'none');
 for (const { model, request, seed, relations, hints, mesh, refused } of rows) {
   const whole = seed === 1 && relations === 1 && hints === 1 ? ' ' : '-';

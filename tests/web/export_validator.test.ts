@@ -25,7 +25,8 @@ beforeAll(async () => {
 
 async function issues(glb: Uint8Array): Promise<string[]> {
   const report = await validateBytes(glb, { maxIssues: 0 });
-  return [...new Set(report.issues.messages.map((message) => `${message.severity} ${message.code}`))].sort();
+  const { messages } = report.issues;
+  return [...new Set(messages.map(({ severity, code, pointer }) => `${severity} ${code} ${pointer}`))].sort();
 }
 
 describe('the Khronos validator', () => {
@@ -49,12 +50,16 @@ describe('the Khronos validator', () => {
       for (const { request, edit } of model.requests) {
         const { program } = call<{ program: { layers: Layer[] } }>(core, 'propagate', { edit }).result;
         const { name, min, max } = (program.layers[0] as Layer).parameter;
+        const counts = JSON.stringify(program).includes('change_count');
         const outputs = [[min], [max]].map((values) => call(core, 'apply', { program, values }).buffers[0]);
         // Counts that change have no animation; the core says so.
-        if (!JSON.stringify(program).includes('change_count'))
-          outputs.push(call(core, 'apply', { program, values: [max], animate: name }).buffers[0]);
+        if (!counts) outputs.push(call(core, 'apply', { program, values: [max], animate: name }).buffers[0]);
         for (const output of outputs) {
-          expect(await issues(output as Uint8Array), `${model.id}: ${request}`).toEqual([]);
+          // The node of an instance that is no longer there stays, unused, so that no other index changes.
+          const found = (await issues(output as Uint8Array)).filter(
+            (issue) => !(counts && issue.startsWith('2 UNUSED_OBJECT /nodes/')),
+          );
+          expect(found, `${model.id}: ${request}`).toEqual([]);
           checked++;
         }
       }
