@@ -41,6 +41,14 @@ Result<Shape> read_shape(const std::string& path) {
   return shape;
 }
 
+Result<EditRequest> read_edit(const std::string& path) {
+  const Result<nlohmann::json> json = read_json(path);
+  if (!json) return json.error();
+  Result<EditRequest> edit = edit_request_from_json(*json);
+  if (!edit) return at_path(edit.error(), path);
+  return edit;
+}
+
 Result<Program> read_program(const std::string& path, const Shape& shape) {
   Result<ProgramFile> file = load_program(path);
   if (!file) return at_path(file.error(), path);

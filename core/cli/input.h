@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/edit/program.h"
+#include "core/propagate/edit_request.h"
 #include "core/shape/shape.h"
 
 namespace parsel::cli {
@@ -14,6 +15,9 @@ namespace parsel::cli {
 Result<Shape> read_shape(const std::string& path);
 
 Result<nlohmann::json> read_json(const std::string& path);
+
+/// An edit request, format parsel/edit. Error places begin with the path.
+Result<EditRequest> read_edit(const std::string& path);
 
 /// A program (JSON or text) that passes validate() for the shape. Error places begin with the path.
 Result<Program> read_program(const std::string& path, const Shape& shape);

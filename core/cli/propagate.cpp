@@ -13,9 +13,7 @@ int run(const Arguments& arguments) {
   if (arguments.positional.size() != 2) return misuse("propagate takes a model and an edit");
   const Result<Shape> shape = read_shape(arguments.positional[0]);
   if (!shape.ok()) return refuse(shape.error());
-  const Result<nlohmann::json> edit = read_json(arguments.positional[1]);
-  if (!edit.ok()) return refuse(edit.error());
-  const Result<EditRequest> request = edit_request_from_json(*edit);
+  const Result<EditRequest> request = read_edit(arguments.positional[1]);
   if (!request.ok()) return refuse(request.error());
   PropagateOptions options;
   options.request = arguments.option("--request");

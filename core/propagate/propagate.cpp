@@ -497,6 +497,7 @@ Revisions find_revisions(const Shape& shape, const ResolvedRequest& request, con
                          const Loop& first, const Progress& progress) {
   const auto active = static_cast<int>(active_parts(shape).size());
   int budget = std::clamp(revision_work / std::max(active, 1), 4, 48);
+  const Progress silent;
   Revisions chosen;
   std::size_t fewest = first.broken_relations().size();
   auto possible = first.possible_revisions();
@@ -509,7 +510,7 @@ Revisions find_revisions(const Shape& shape, const ResolvedRequest& request, con
       report(progress, "looking for a way that keeps more", total - budget, total);
       Revisions tried = chosen;
       tried[part] = hint;
-      Loop loop(shape, request, tried, options, {});
+      Loop loop(shape, request, tried, options, silent);
       if (!loop.search().ok()) continue;
       const std::size_t broken = loop.broken_relations().size();
       if (broken >= fewest) continue;
