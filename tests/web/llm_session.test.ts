@@ -54,6 +54,7 @@ function fakeSource(votes: number, react: (task: string, vote: number) => Reacti
   const discarded: string[] = [];
   const source: Source = {
     votes: () => votes,
+    kept: async () => undefined,
     async reply({ task }, vote, _, signal) {
       const reaction = react(task, vote) ?? (task === 'relation_validity_reflection' ? 'keep' : task);
       if (reaction instanceof AskError) throw reaction;
@@ -65,7 +66,7 @@ function fakeSource(votes: number, react: (task: string, vote: number) => Reacti
           }),
         );
       }
-      return { text: reaction, tokens: { input: 10, output: 1 }, kept: false };
+      return { text: reaction, tokens: { input: 10, output: 1 } };
     },
     discard: async ({ task }, vote) => void discarded.push(`${task} ${vote}`),
   };
@@ -110,6 +111,15 @@ describe('asking', () => {
     expect(answer.inference.seed.readings[0]?.votes).toBe(3);
   });
 
+  it('does not ask for votes that kept replies decide', async () => {
+    const { source } = fakeSource(5, () => undefined);
+    const reply = vi.spyOn(source, 'reply');
+    source.kept = async ({ task }, vote) => (vote < 3 ? (task === 'seed_edit' ? 'wider' : 'keep') : undefined);
+    const answer = await run(source);
+    expect(answer).toMatchObject({ kept: 9, calls: 2 });
+    expect(reply.mock.calls.map(([{ task }]) => task)).toEqual(['type_hints', 'type_hints']);
+  });
+
   it('waits while a vote can still turn', async () => {
     const controller = new AbortController();
     const { source, aborted } = fakeSource(5, (task, vote) => {
@@ -147,6 +157,7 @@ describe('asking', () => {
     const controller = new AbortController();
     const { source, aborted } = fakeSource(9, () => 'never');
     const running = run(source, { signal: controller.signal });
+    await new Promise((resolve) => setTimeout(resolve, 10));
     controller.abort();
     await expect(running).rejects.toThrow('aborted');
     expect(aborted).toHaveLength(27);
@@ -185,15 +196,13 @@ describe('replies that were paid for', () => {
     const cache = memoryCache();
     const fetch = vi.fn(async () => Response.json(body));
     const signal = new AbortController().signal;
-    const reply = (change: Partial<Target>, vote: number, afresh = false) =>
-      liveSource({ ...target, ...change }, { votes: 5, cache, fetch, afresh }).reply(
-        prompt('seed_edit'),
-        vote,
-        null,
-        signal,
-      );
-    expect(await reply({}, 0)).toEqual({ text: 'wider', tokens: null, kept: false });
-    expect(await reply({}, 0)).toEqual({ text: 'wider', tokens: null, kept: true });
+    const reply = async (change: Partial<Target>, vote: number, afresh = false) => {
+      const source = liveSource({ ...target, ...change }, { votes: 5, cache, fetch, afresh });
+      const kept = await source.kept(prompt('seed_edit'), vote);
+      return kept ?? (await source.reply(prompt('seed_edit'), vote, null, signal)).text;
+    };
+    expect(await reply({}, 0)).toBe('wider');
+    expect(await reply({}, 0)).toBe('wider');
     expect(fetch).toHaveBeenCalledTimes(1);
     await reply({}, 1);
     await reply({ model: 'other' }, 0);
@@ -237,7 +246,8 @@ describe('recordings', () => {
     const source = recordedSource(recordings);
     const signal = new AbortController().signal;
     expect(source.votes(prompt('seed_edit'))).toBe(2);
-    expect((await source.reply(prompt('seed_edit'), 1, null, signal)).text).toBe('two');
+    expect(await source.kept(prompt('seed_edit'), 1)).toBe('two');
+    expect(await source.kept(prompt('type_hints'), 0)).toBeUndefined();
     await expect(source.reply(prompt('type_hints'), 0, null, signal)).rejects.toThrow(
       /no recorded answer.*enter a key/,
     );

@@ -1,5 +1,5 @@
-// A request is many prompts, each asked several times; all calls go out at once, and a vote that the calls still under way
-// cannot turn any more ends them. What prompts ask and what replies mean is the core's business: here is only the asking.
+// A request is many prompts, each asked several times. Replies that were kept are counted first; then all calls go out at
+// once, and a vote that the calls still under way cannot turn any more ends them. What prompts ask and what replies mean is the core's business: here is only the asking.
 
 import type { Inference, MethodResult, Prompt, Replies, Task } from '../worker/protocol';
 import type { Tokens } from './adapter';
@@ -101,12 +101,12 @@ export async function ask(
     const { prompt, controller } = ballot;
     const own = AbortSignal.any([signal, all.signal, controller.signal]);
     try {
+      own.throwIfAborted();
       const reply = await source.reply(prompt, vote, schemas[prompt.task] ?? null, own);
       ballot.texts[vote] = reply.text;
-      if (reply.kept) kept++;
-      else calls++;
-      tokens.input += reply.kept ? 0 : (reply.tokens?.input ?? 0);
-      tokens.output += reply.kept ? 0 : (reply.tokens?.output ?? 0);
+      calls++;
+      tokens.input += reply.tokens?.input ?? 0;
+      tokens.output += reply.tokens?.output ?? 0;
     } catch (error) {
       if (own.aborted) return;
       if (!(error instanceof AskError)) throw error;
@@ -119,8 +119,19 @@ export async function ask(
     }
   };
 
+  const votes = ballots.flatMap((ballot) => Array.from({ length: ballot.of }, (_, vote) => ({ ballot, vote })));
+  await Promise.all(
+    votes.map(async ({ ballot, vote }) => {
+      const text = await source.kept(ballot.prompt, vote);
+      if (text === undefined) return;
+      ballot.texts[vote] = text;
+      ballot.pending--;
+      kept++;
+    }),
+  );
   report();
-  await Promise.all(ballots.flatMap((ballot) => Array.from({ length: ballot.of }, (_, vote) => one(ballot, vote))));
+  if (kept > 0) await endDecided();
+  await Promise.all(votes.map(({ ballot, vote }) => (ballot.texts[vote] === undefined ? one(ballot, vote) : null)));
   signal.throwIfAborted();
   if (all.signal.aborted) throw all.signal.reason;
   const seed = ballots.find(({ prompt }) => prompt.task === 'seed_edit');

@@ -7,16 +7,13 @@ import type { ReplyCache } from './cache';
 import { complete, type SendOptions } from './http';
 import type { Recordings } from './recordings';
 
-export interface SourcedReply extends Reply {
-  /** Whether it was there already, and cost nothing now. */
-  readonly kept: boolean;
-}
-
 export interface Source {
   /** How often a prompt is asked. */
   votes(prompt: Prompt): number;
-  /** @param vote from 0. @throws AskError; or the signal's reason */
-  reply(prompt: Prompt, vote: number, schema: object | null, signal: AbortSignal): Promise<SourcedReply>;
+  /** The text of a reply that is there already and costs nothing. @param vote from 0 */
+  kept(prompt: Prompt, vote: number): Promise<string | undefined>;
+  /** Asks. @throws AskError; or the signal's reason */
+  reply(prompt: Prompt, vote: number, schema: object | null, signal: AbortSignal): Promise<Reply>;
   /** A reply that nobody can read: it is asked anew the next time. */
   discard(prompt: Prompt, vote: number): Promise<void>;
 }
@@ -32,15 +29,12 @@ export function liveSource(target: Target, { votes, cache, afresh = false, ...op
   const keyOf = ({ hash }: Prompt, vote: number) => [target.base, target.model, hash, vote].join(' ');
   return {
     votes: () => votes,
+    kept: async (prompt, vote) => (afresh ? undefined : (await cache.get(keyOf(prompt, vote)))?.text),
     async reply(prompt, vote, schema, signal) {
-      const key = keyOf(prompt, vote);
-      const kept = afresh ? undefined : await cache.get(key);
-      signal.throwIfAborted();
-      if (kept !== undefined) return { ...kept, kept: true };
       const call: Call = { prompt: prompt.text, schema };
       const reply = await complete(target, call, { ...options, signal });
-      await cache.set(key, reply);
-      return { ...reply, kept: false };
+      await cache.set(keyOf(prompt, vote), reply);
+      return reply;
     },
     discard: (prompt, vote) => cache.delete(keyOf(prompt, vote)),
   };
@@ -50,16 +44,14 @@ export function recordedSource({ replies }: Recordings): Source {
   const of = ({ hash }: Prompt) => (Object.hasOwn(replies, hash) ? (replies[hash] ?? []) : []);
   return {
     votes: (prompt) => Math.max(1, of(prompt).length),
-    async reply(prompt, vote) {
-      const text = of(prompt)[vote];
-      if (text === undefined)
-        throw new AskError(
-          'no_recording',
-          '',
-          'There is no recorded answer to this request',
-          'Choose one of the recorded requests, or enter a key in the settings to ask anything',
-        );
-      return { text, tokens: null, kept: true };
+    kept: async (prompt, vote) => of(prompt)[vote],
+    async reply() {
+      throw new AskError(
+        'no_recording',
+        '',
+        'There is no recorded answer to this request',
+        'Choose one of the recorded requests, or enter a key in the settings to ask anything',
+      );
     },
     discard: async () => {},
   };

@@ -51,7 +51,7 @@ export function Composer({ picking }: { picking: boolean }) {
         {state.kind === 'understood' && state.model === document.value.model && (
           <ReadingCard key={state.answer} state={state} />
         )}
-        <div role="alert">{state.kind === 'failed' && <Failed text={state.text} isSetting={state.isSetting} />}</div>
+        {state.kind === 'failed' && <Failed text={state.text} isSetting={state.isSetting} />}
         <div role="status">{isAsking && <Asking tasks={state.tasks} />}</div>
       </div>
       <form
@@ -185,7 +185,7 @@ function Asking({ tasks }: { tasks: readonly TaskProgress[] }) {
 
 function Failed({ text, isSetting }: { text: string; isSetting: boolean }) {
   return (
-    <div class="failed">
+    <div class="failed" role="alert">
       <Icon name="warning" />
       <p class="grow">{text}</p>
       {isSetting && (
@@ -257,7 +257,6 @@ function EstimateLine() {
   const text = requestText.value;
   const parts = mentioned.value;
   const { votes, provider } = settings.value;
-  // biome-ignore lint/correctness/useExhaustiveDependencies: they are what the estimate depends on
   useEffect(() => {
     let current = true;
     const timer = setTimeout(() => {

@@ -1,6 +1,7 @@
 // What was understood of a request, in words, each line to be corrected: the reading, what other parts should do, which
 // relations give way.
 import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
 import type { Answer } from '../llm/session';
 import { costOf, isDemo } from '../llm/settings';
 import type { Layer } from '../program/types';
@@ -16,9 +17,10 @@ import {
   type Understood,
   whyUndecided,
 } from '../session/request';
-import { pointedAt, task } from '../session/session';
+import { document, pointedAt, task } from '../session/session';
 import { Hints } from './HandPanel';
 import { Icon } from './Icon';
+import { relationWords } from './words';
 
 export function ReadingCard({ state }: { state: Understood }) {
   const { inference } = state.answer;
@@ -68,6 +70,10 @@ function Corrections({ state }: { state: Understood }) {
   const { seed, relations } = inference;
   const isApplied = requestLayer.value !== null;
   const shape = state.model.shape;
+  const leave = () => {
+    pointedAt.value = null;
+  };
+  useEffect(() => leave, []); // what is pointed at may go away under the pointer
   return (
     <div class="corrections">
       {seed.readings.length > 0 && (
@@ -94,12 +100,9 @@ function Corrections({ state }: { state: Understood }) {
         <details open={relations.some(({ keep }) => !keep)}>
           <summary>{keptWords(state)}</summary>
           {relations.map(({ relation, words, votes, of }) => {
+            const known = shape.relations.find(({ id }) => id === relation);
             const point = () => {
-              const parts = shape.relations.find(({ id }) => id === relation)?.parts ?? [];
-              pointedAt.value = { parts, relations: [relation] };
-            };
-            const leave = () => {
-              pointedAt.value = null;
+              pointedAt.value = { parts: known?.parts ?? [], relations: [relation] };
             };
             const disabled = state.edit?.disabled ?? [];
             return (
@@ -114,7 +117,7 @@ function Corrections({ state }: { state: Understood }) {
                     correctEdit({ disabled: event.currentTarget.checked ? others : [...others, relation] });
                   }}
                 />
-                <span class="grow">Keep: {words}</span>
+                <span class="grow">Keep: {known ? relationWords(document.value, known) : words}</span>
                 <span class="quiet votes">
                   {votes} of {of}
                 </span>
