@@ -87,7 +87,10 @@ function objection(parts) {
 
 function convert(library, entry, licence) {
   const path = join(unpacked, library, entry.model);
-  const name = `${library}_${entry.model.split('/').at(-1).replace(/\.\w+$/, '')}`.toLowerCase();
+  const name = `${library}_${entry.model
+    .split('/')
+    .at(-1)
+    .replace(/\.\w+$/, '')}`.toLowerCase();
   const result = { name, library, title: entry.name, category: entry.category, usable: false };
   const refuse = (why) => ({ ...result, why });
   if (entry.category === 'Characters') return refuse('a person');
@@ -128,10 +131,17 @@ writeFileSync(join(output, 'conversion.json'), `${JSON.stringify(results, null, 
 const count = (list, key) => {
   const counts = new Map();
   for (const item of list) counts.set(key(item), (counts.get(key(item)) ?? 0) + 1);
-  return [...counts].sort((a, b) => b[1] - a[1]).map(([what, n]) => `${n} ${what}`).join(', ');
+  return [...counts]
+    .sort((a, b) => b[1] - a[1])
+    .map(([what, n]) => `${n} ${what}`)
+    .join(', ');
 };
 const usable = results.filter((result) => result.usable);
+const refused = results.filter((result) => !result.usable);
 const parts = usable.map((result) => result.parts).sort((a, b) => a - b);
-console.log(`${usable.length} of ${results.length} models converted: ${count(usable, ({ library }) => library)}`);
-console.log(`parts a model: median ${parts[parts.length >> 1]}, most ${parts.at(-1)}`);
-console.log(`left out: ${count(results.filter((result) => !result.usable), ({ why }) => why)}`);
+process.stdout.write(
+  `${usable.length} of ${results.length} models converted: ${count(usable, ({ library }) => library)}
+parts a model: median ${parts[parts.length >> 1]}, most ${parts.at(-1)}
+left out: ${count(refused, ({ why }) => why)}
+`,
+);

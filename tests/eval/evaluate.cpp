@@ -12,6 +12,7 @@
 //    "held","broken","disabled","certified","worst_held","left_broken":[ids],"findings":[…],"ms":{stage: n},"peak_mb",
 //    "ends":[{"x","least_jacobian","least_jacobian_of","overlap","gap","overlaps":[…],"gaps":[…],"glb_bytes"}],
 //    "failure":{"stage","cause"} or null}
+// overlaps and gaps: [{"a","b","amount","tie"}], see measure.h and tie_of().
 // relations: those that touch what moves. breaking edits: why.breaking. ms: processor time. peak_mb: of the model's
 // process so far. A crash, a stage over its limit, a number that is not finite, an inverted cell, a program that does
 // not pass validate(), a finding of the checker and a written GLB that does not read back are failures.
@@ -75,9 +76,32 @@ double peak_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-json to_json(const std::vector<PairOfParts>& pairs) {
+/// What the program says of the attachment of two parts, or of the groups that they are instances of: "held", "broken",
+/// "disabled", "unreported"; "group" for two instances of one; "none" when nothing ties them.
+std::string tie_of(const Shape& shape, const Layer& layer, PartIndex a, PartIndex b) {
+  const auto stands_for = [&](PartIndex candidate, PartIndex part) {
+    return candidate == part || (shape.parts[part].group && shape.parts[candidate].is_virtual() &&
+                                 shape.parts[candidate].group == shape.parts[part].group);
+  };
+  std::string tie = shape.parts[a].group && shape.parts[a].group == shape.parts[b].group ? "group" : "none";
+  for (const Relation& relation : shape.relations) {
+    if (!relation.is_attachment()) continue;
+    const PartIndex p = relation.parts[0], q = relation.parts[1];
+    if (!((stands_for(p, a) && stands_for(q, b)) || (stands_for(p, b) && stands_for(q, a)))) continue;
+    const auto report = std::find_if(layer.relations.begin(), layer.relations.end(),
+                                     [&](const RelationReport& r) { return r.id == relation.id; });
+    if (report != layer.relations.end()) return std::string(to_string(report->status));
+    tie = "unreported";
+  }
+  return tie;
+}
+
+json to_json(const std::vector<PairOfParts>& pairs, const Shape& shape, const Layer& layer) {
   json list = json::array();
-  for (const PairOfParts& pair : pairs) list.push_back({{"a", pair.a}, {"b", pair.b}, {"amount", pair.amount}});
+  for (const auto& [a, b, amount] : pairs) {
+    const std::string tie = tie_of(shape, layer, *shape.find_part(a), *shape.find_part(b));
+    list.push_back({{"a", a}, {"b", b}, {"amount", amount}, {"tie", tie}});
+  }
   return list;
 }
 
@@ -198,8 +222,8 @@ class Run {
                 {"least_jacobian_of", damage.least_jacobian_of},
                 {"overlap", damage.overlap},
                 {"gap", damage.gap},
-                {"overlaps", ::to_json(damage.overlaps)},
-                {"gaps", ::to_json(damage.gaps)}};
+                {"overlaps", ::to_json(damage.overlaps, abstraction_.shape, program.layers[0])},
+                {"gaps", ::to_json(damage.gaps, abstraction_.shape, program.layers[0])}};
     const auto applied = timed("apply", [&] { return apply_program(bytes_, abstraction_.shape, program, {x}); });
     if (!applied.ok()) {
       fail("apply", applied.error().message());
@@ -325,11 +349,16 @@ Options options_of(const std::vector<std::string>& arguments) {
     }
     if (i + 1 == arguments.size()) refuse(argument + " needs a value");
     const std::string& value = arguments[++i];
-    if (argument == "-o") options.output = value;
-    else if (argument == "--edits") options.edits = value;
-    else if (argument == "--only") options.only = value;
-    else if (argument == "--seconds") options.seconds = std::stod(value);
-    else refuse("unknown option " + argument);
+    if (argument == "-o")
+      options.output = value;
+    else if (argument == "--edits")
+      options.edits = value;
+    else if (argument == "--only")
+      options.only = value;
+    else if (argument == "--seconds")
+      options.seconds = std::stod(value);
+    else
+      refuse("unknown option " + argument);
   }
   if (options.models.empty() || options.output.empty()) {
     refuse("usage: parsel_eval MODELS -o OUTPUT [--edits EDITS.json] [--only TEXT] [--seconds S]");
@@ -346,7 +375,8 @@ int main(int count, char** arguments) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(options.models)) {
     const fs::path& path = entry.path();
-    if (path.extension() == ".glb" && path.stem().string().find(options.only) != std::string::npos) files.push_back(path);
+    if (path.extension() == ".glb" && path.stem().string().find(options.only) != std::string::npos)
+      files.push_back(path);
   }
   std::sort(files.begin(), files.end());
   if (files.empty()) refuse(options.models.string() + " holds no such .glb");

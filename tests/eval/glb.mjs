@@ -22,7 +22,13 @@ export function writeGlb(parts, obj, materialOf, asset) {
   };
   const accessor = (array, componentType, type, width, extra) => {
     const target = type === 'SCALAR' ? 34963 : 34962;
-    json.accessors.push({ bufferView: view(array, target), componentType, type, count: array.length / width, ...extra });
+    json.accessors.push({
+      bufferView: view(array, target),
+      componentType,
+      type,
+      count: array.length / width,
+      ...extra,
+    });
     return json.accessors.length - 1;
   };
   const materials = new Map();

@@ -130,7 +130,8 @@ double distance(const std::vector<Vec3>& points, const PartMesh& mesh) {
     const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     for (const Vec3& p : points) {
       // The box first: it is nearer than what is in it.
-      if ((p - p.cwiseMax(low).cwiseMin(high)).norm() < least) least = std::min(least, distance_to_triangle(p, a, b, c));
+      if ((p - p.cwiseMax(low).cwiseMin(high)).norm() < least)
+        least = std::min(least, distance_to_triangle(p, a, b, c));
     }
   }
   return least;
@@ -184,8 +185,8 @@ Gauge::Gauge(const Abstraction& abstraction) : abstraction_(abstraction) {
       // Seen from the smaller part, or from the instance of a group: that is what may be copied.
       const double extent_a = (solids_[a].high - solids_[a].low).norm();
       const double extent_b = (solids_[b].high - solids_[b].low).norm();
-      const bool a_first = parts[a].group.has_value() != parts[b].group.has_value() ? parts[a].group.has_value()
-                                                                                    : extent_a <= extent_b;
+      const bool a_first =
+          parts[a].group.has_value() != parts[b].group.has_value() ? parts[a].group.has_value() : extent_a <= extent_b;
       Contact contact = a_first ? contact_of(a, b) : contact_of(b, a);
       if (contact.points.empty()) contact = a_first ? contact_of(b, a) : contact_of(a, b);
       if (!contact.points.empty()) contacts_.push_back(std::move(contact));
@@ -253,6 +254,15 @@ double Gauge::gap(const Contact& contact, const Thing& a, const Thing& b) const 
   return std::max(0.0, distance(points, mesh) - contact.distance);
 }
 
+bool Gauge::shared_by_group(const Contact& contact) const {
+  const Shape& shape = abstraction_.shape;
+  const auto& members = shape.relations[*shape.parts[contact.a].group].parts;
+  return std::all_of(members.begin(), members.end(), [&](PartIndex member) {
+    return std::any_of(contacts_.begin(), contacts_.end(),
+                       [&](const Contact& other) { return other.a == member && other.b == contact.b; });
+  });
+}
+
 Damage Gauge::measure(const State& state) const {
   const Shape& shape = abstraction_.shape;
   Damage damage;
@@ -276,7 +286,7 @@ Damage Gauge::measure(const State& state) const {
   }
   for (const Contact& contact : contacts_) {
     for (const Thing& a : all) {
-      if (a.part != contact.a) continue;
+      if (a.part != contact.a || (a.copied && !shared_by_group(contact))) continue;
       double least = std::numeric_limits<double>::infinity();  // from the nearest copy of b, if there are several
       for (const Thing& b : all) {
         if (b.part == contact.b) least = std::min(least, a.moved || b.moved ? gap(contact, a, b) : 0);

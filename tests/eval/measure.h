@@ -27,11 +27,11 @@ struct PairOfParts {
 };
 
 struct Damage {
-  bool finite = true;             ///< all corners
-  double least_jacobian = 1;      ///< relative to rest, over all cells' corners; ≤ 0 is inverted
-  std::string least_jacobian_of;  ///< the part
-  double overlap = 0;             ///< volume that parts newly share, over all pairs
-  double gap = 0;                 ///< largest
+  bool finite = true;                       ///< all corners
+  double least_jacobian = 1;                ///< relative to rest, over all cells' corners; ≤ 0 is inverted
+  std::string least_jacobian_of;            ///< the part
+  double overlap = 0;                       ///< volume that parts newly share, over all pairs
+  double gap = 0;                           ///< largest
   std::vector<PairOfParts> overlaps, gaps;  ///< worst first, at most 5
 };
 
@@ -44,7 +44,8 @@ struct Damage {
 /// Gap: parts that touched at rest (surfaces nearer than `touching`): by how much the nearest of the points that
 /// touched is now farther from the other's surface.
 ///
-/// After a change_count, instances are measured as copies of the one they come from, and must touch what that touched.
+/// After a change_count, instances are measured as copies of the one they come from, and must touch what all instances
+/// touched.
 class Gauge {
  public:
   explicit Gauge(const Abstraction& abstraction);
@@ -70,6 +71,7 @@ class Gauge {
   std::vector<Thing> things(const State& state) const;
   double new_overlap(const Thing& a, const Thing& b) const;
   double gap(const Contact& contact, const Thing& a, const Thing& b) const;
+  bool shared_by_group(const Contact& contact) const;
   PartMesh deformed(const Thing& thing) const;
 
   const Abstraction& abstraction_;

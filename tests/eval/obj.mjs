@@ -50,13 +50,17 @@ function pushNumbers(target, words, count) {
 
 function readCorner(corner, { positions, uvs, normals }) {
   const counts = [positions.length / 3, uvs.length / 2, normals.length / 3];
-  return corner.split('/').concat('', '').slice(0, 3).map((word, i) => {
-    if (word === '') return -1;
-    const index = Number(word) < 0 ? counts[i] + Number(word) : Number(word) - 1;
-    if (index >= 0 && index < counts[i]) return index;
-    if (i > 0) return -1; // a face without its texture or normal can still be shown
-    throw new Error(`face corner ${corner} has no vertex`);
-  });
+  return corner
+    .split('/')
+    .concat('', '')
+    .slice(0, 3)
+    .map((word, i) => {
+      if (word === '') return -1;
+      const index = Number(word) < 0 ? counts[i] + Number(word) : Number(word) - 1;
+      if (index >= 0 && index < counts[i]) return index;
+      if (i > 0) return -1; // a face without its texture or normal can still be shown
+      throw new Error(`face corner ${corner} has no vertex`);
+    });
 }
 
 /** Ear clipping in the polygon's own plane; a fan where that finds no ear. @returns indices, three a triangle */
@@ -81,7 +85,9 @@ function triangulate(points) {
     let ear = left.findIndex((j, at) => {
       const [i, k] = [left.at(at - 1), left[(at + 1) % left.length]];
       if (turn(i, j, k) <= 0) return false;
-      return left.every((p) => p === i || p === j || p === k || turn(i, j, p) < 0 || turn(j, k, p) < 0 || turn(k, i, p) < 0);
+      return left.every(
+        (p) => p === i || p === j || p === k || turn(i, j, p) < 0 || turn(j, k, p) < 0 || turn(k, i, p) < 0,
+      );
     });
     if (ear < 0) ear = 1;
     triangles.push(left.at(ear - 1), left[ear], left[(ear + 1) % left.length]);

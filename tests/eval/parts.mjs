@@ -43,7 +43,11 @@ export function meaningOf(name, not = []) {
   text = text.replace(/\.(jpe?g|png|tga|bmp)/gi, '').trim();
   for (let last = ''; last !== text; ) {
     last = text;
-    text = text.replace(blenderMesh, '').replace(/[._ -]\d+$/, '').replace(/^(.+)[_ ]\1$/, '$1').trim();
+    text = text
+      .replace(blenderMesh, '')
+      .replace(/[._ -]\d+$/, '')
+      .replace(/^(.+)[_ ]\1$/, '$1')
+      .trim();
   }
   const bare = text.toLowerCase().replace(/[^a-z]/g, '');
   if (bare.length < 3 || generic.test(text) || not.includes(bare)) return '';
@@ -76,7 +80,8 @@ export function partsOf(obj, modelName) {
     const from = group !== '' ? 'group' : stuff !== '' ? 'material' : 'nothing';
     for (const instance of instancesOf(obj, corners, weld, size)) {
       const { area } = measure(obj, instance);
-      if (area > 1e-9 * size * size) parts.push({ label: label || 'anonymous', from, material, corners: instance, area });
+      if (area > 1e-9 * size * size)
+        parts.push({ label: label || 'anonymous', from, material, corners: instance, area });
     }
   }
   return parts;
@@ -149,8 +154,7 @@ function mergeTouching(pieces, distance) {
 }
 
 /** Distance between boxes. */
-const gap = (a, b) =>
-  Math.hypot(...[0, 1, 2].map((k) => Math.max(0, a.low[k] - b.high[k], b.low[k] - a.high[k])));
+const gap = (a, b) => Math.hypot(...[0, 1, 2].map((k) => Math.max(0, a.low[k] - b.high[k], b.low[k] - a.high[k])));
 
 /** Area, bounds, diagonal of the bounds, and root mean square distance of the vertices from their mean. */
 function measure({ positions }, corners) {
@@ -160,15 +164,17 @@ function measure({ positions }, corners) {
   let squares = 0;
   let area = 0;
   for (let i = 0; i < corners.length; i += 9) {
-    const [p, q, r] = [0, 3, 6].map((k) => positions.slice(3 * corners[i + k], 3 * corners[i + k] + 3));
-    const [u, v] = [q, r].map((point) => point.map((x, k) => x - p[k]));
-    area += Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
-    for (const point of [p, q, r]) {
+    const [p, q, r] = [3 * corners[i], 3 * corners[i + 3], 3 * corners[i + 6]];
+    const u = (k) => positions[q + k] - positions[p + k];
+    const v = (k) => positions[r + k] - positions[p + k];
+    area += Math.hypot(u(1) * v(2) - u(2) * v(1), u(2) * v(0) - u(0) * v(2), u(0) * v(1) - u(1) * v(0)) / 2;
+    for (const vertex of [p, q, r]) {
       for (let k = 0; k < 3; k++) {
-        low[k] = Math.min(low[k], point[k]);
-        high[k] = Math.max(high[k], point[k]);
-        sum[k] += point[k];
-        squares += point[k] ** 2;
+        const x = positions[vertex + k];
+        if (x < low[k]) low[k] = x;
+        if (x > high[k]) high[k] = x;
+        sum[k] += x;
+        squares += x * x;
       }
     }
   }
@@ -179,7 +185,12 @@ function measure({ positions }, corners) {
 }
 
 function diagonal({ positions, surfaces }) {
-  return surfaces.length === 0 ? 0 : measure({ positions }, surfaces.flatMap(({ corners }) => corners)).extent;
+  return surfaces.length === 0
+    ? 0
+    : measure(
+        { positions },
+        surfaces.flatMap(({ corners }) => corners),
+      ).extent;
 }
 
 /** A number for every position, the same for those in the same cell of a grid. */

@@ -63,17 +63,15 @@ std::vector<NamedEdit> automatic_edits(const Shape& shape) {
   }
   edits.push_back(
       {"move_end",
-       edit_of(
-           {{"op", "translate"}, {"part", shape.parts[end].id}, {"direction", unit(end_axis)}, {"amount", "x"}})});
+       edit_of({{"op", "translate"}, {"part", shape.parts[end].id}, {"direction", unit(end_axis)}, {"amount", "x"}})});
 
   int groups = 0;
   for (const Relation& relation : shape.relations) {
     if (!relation.is_group() || ++groups > 2) continue;
     const std::string suffix = groups == 1 ? "" : "_2";
-    edits.push_back({"count" + suffix, edit_of({{"op", "change_count"},
-                                                {"relation", relation.id},
-                                                {"anchor", "fit"},
-                                                {"amount", "8*x"}})});
+    edits.push_back(
+        {"count" + suffix,
+         edit_of({{"op", "change_count"}, {"relation", relation.id}, {"anchor", "fit"}, {"amount", "8*x"}})});
     edits.push_back(
         {"spacing" + suffix, edit_of({{"op", "change_delta"}, {"relation", relation.id}, {"amount", "x"}})});
   }
