@@ -164,7 +164,7 @@ async function takePictures(program) {
   stage.setInsets({ left: 0, right: 0, top: 0, bottom: 0 });
   stage.fit(null, false);
   const [azimuth, polar, distance, ...target] = stage.rig.pose;
-  stage.rig.pose = [azimuth, polar, distance * 1.3, ...target]; // room for what grows
+  stage.rig.pose = [azimuth, polar, distance * 1.45, ...target]; // room for what grows
   do await new Promise(requestAnimationFrame);
   while (!stage.isStill());
   const { min, max } = program.layers[0].parameter;
@@ -311,6 +311,5 @@ ${edits
 );
 writeFileSync(join(folder, 'report.json'), `${JSON.stringify({ ...report, edits }, null, 1)}\n`);
 process.stdout.write(
-  `${join(folder, 'report.html')}: ${all.edits} edits, ${all.clean} clean, ${all.failures} failures
-`,
+  `${join(folder, 'report.html')}: ${all.edits} edits, ${all.clean} clean, ${all.failures} failures\n`,
 );
