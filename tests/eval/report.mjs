@@ -100,6 +100,9 @@ async function loadHarness() {
   return (await runnerImport(harness, { root: join(root, 'web'), configFile: false, logLevel: 'error' })).module;
 }
 
+/** Milliseconds that any step in the browser may take: software rendering on a busy machine is slow. */
+const patience = 120_000;
+
 /** Draws edits on the page; answers nothing, edits get `pictures`: names of files, at rest, at the minimum, the maximum. */
 async function draw(list) {
   const { serve, launch, openPage, withoutGallery, pick } = await loadHarness();
@@ -115,7 +118,7 @@ async function draw(list) {
       process.stderr.write(`\rpicture ${i + 1} of ${list.length}\x1b[K`);
       try {
         page ??= (await openPage(browser, `${url}?debug`, view, withoutGallery)).page;
-        page.setDefaultTimeout(60_000);
+        page.setDefaultTimeout(patience);
         if (open !== edit.model) {
           const buffer = readFileSync(join(models, `${edit.model}.glb`));
           open = null;
@@ -245,6 +248,7 @@ const pageOf = (title, body) =>
 async function writeSheets(browser, list) {
   mkdirSync(sheetFolder, { recursive: true });
   const page = await browser.newPage({ viewport: { width: 1500, height: 900 } });
+  page.setDefaultTimeout(patience);
   const inline = (name) => `data:image/png;base64,${readFileSync(join(folder, name)).toString('base64')}`;
   for (let i = 0; i < list.length; i += 10) {
     const cells = list.slice(i, i + 10).map((edit) => figure(edit, inline));
