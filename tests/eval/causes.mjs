@@ -22,7 +22,7 @@ const ties = {
   broken: 'whose attachment is given up',
   disabled: 'of a group that is taken apart',
   group: 'of one group',
-  unreported: 'of which neither moves by the program',
+  inactive: 'whose attachment rests while their group stands',
 };
 
 export function causeOf(edit) {

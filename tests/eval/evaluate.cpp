@@ -77,7 +77,8 @@ double peak_mb() {
 }
 
 /// What the program says of the attachment of two parts, or of the groups that they are instances of: "held", "broken",
-/// "disabled", "unreported"; "group" for two instances of one; "none" when nothing ties them.
+/// "disabled"; "inactive" for an attachment that does not count, as a group stands for its instances; "group" for two
+/// instances of one without any; "none" when nothing ties them.
 std::string tie_of(const Shape& shape, const Layer& layer, PartIndex a, PartIndex b) {
   const auto stands_for = [&](PartIndex candidate, PartIndex part) {
     return candidate == part || (shape.parts[part].group && shape.parts[candidate].is_virtual() &&
@@ -91,7 +92,7 @@ std::string tie_of(const Shape& shape, const Layer& layer, PartIndex a, PartInde
     const auto report = std::find_if(layer.relations.begin(), layer.relations.end(),
                                      [&](const RelationReport& r) { return r.id == relation.id; });
     if (report != layer.relations.end()) return std::string(to_string(report->status));
-    tie = "unreported";
+    tie = "inactive";
   }
   return tie;
 }
