@@ -114,7 +114,8 @@ configure_and_build() {
     grep -A 4 'CMake Error' "$log" >&2 || tail -n 20 "$log" >&2
     die "Configuring the preset $preset failed; the whole log is $log."
   }
-  (cd "$root" && cmake --build --preset "$preset" > "$log" 2>&1) || {
+  # `targets` may name what to build; everything otherwise.
+  (cd "$root" && cmake --build --preset "$preset" ${targets:+--target $targets} > "$log" 2>&1) || {
     grep -E -A 8 'error|FAILED' "$log" | cut -c1-300 | head -n 60 >&2
     die "Building the preset $preset failed; the whole log is $log."
   }
