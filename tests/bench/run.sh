@@ -29,9 +29,7 @@ $native_needs"
 "$root/web/start.sh" --build-only
 need_node
 say "Building the native core, optimised"
-configure_and_build native-release
-(cd "$root" && cmake --build build/native-release --target benchmarks > build/benchmarks.log 2>&1) ||
-  die "Building the benchmarks failed; the whole log is build/benchmarks.log."
+targets="parsel benchmarks" configure_and_build native-release
 
 output=$root/tests/output/bench
 mkdir -p "$output"
