@@ -91,7 +91,7 @@ describe('why a part moves', () => {
     const handle = page.getByRole('button', { name: 'Move seat', exact: true });
     await handle.focus();
     await page.keyboard.press('ArrowUp');
-    await page.locator('.handle.held .reading').filter({ hasText: '→' }).waitFor();
+    await page.locator('.handle.held .pull-reading').filter({ hasText: '→' }).waitFor();
     await page.keyboard.press('Enter');
     await page.locator('.card').waitFor();
     const why = page.getByRole('region', { name: 'Why it moves' });

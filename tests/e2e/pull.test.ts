@@ -41,7 +41,7 @@ async function drag(name: string, by: readonly [number, number]): Promise<void> 
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + by[0] / 2, y + by[1] / 2);
-  await page.locator('.handle.held .reading').filter({ hasText: '→' }).waitFor();
+  await page.locator('.handle.held .pull-reading').filter({ hasText: '→' }).waitFor();
   await page.mouse.move(x + by[0], y + by[1], { steps: 4 });
 }
 
@@ -105,7 +105,7 @@ describe('pulling a face', () => {
     const rest = await corners();
     await handle('Pull left of seat').focus();
     await page.keyboard.press('ArrowRight');
-    await page.locator('.handle.held .reading').filter({ hasText: '→' }).waitFor();
+    await page.locator('.handle.held .pull-reading').filter({ hasText: '→' }).waitFor();
     await page.keyboard.press('Shift+ArrowRight');
     await page.keyboard.press('Enter');
     await page.locator('.card').waitFor();

@@ -2,7 +2,6 @@
 // was understood, and what went wrong.
 import { type Signal, useSignal, useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
-import { loadRecordings, type RecordedRequest } from '../llm/recordings';
 import type { Estimate, TaskProgress } from '../llm/session';
 import { choiceOf, costOf, isDemo, settings } from '../llm/settings';
 import { models } from '../session/core';
@@ -22,7 +21,7 @@ import { document, selection } from '../session/session';
 import { dialog } from './actions';
 import { Icon } from './Icon';
 import { ReadingCard } from './ReadingCard';
-import './composer.css';
+import { useRecorded } from './recorded';
 
 const maxLength = 1000;
 
@@ -229,25 +228,6 @@ function Below() {
       ))}
     </div>
   );
-}
-
-/** The recorded requests of the present gallery model. */
-function useRecorded(): readonly RecordedRequest[] {
-  const found = useSignal<readonly RecordedRequest[]>([]);
-  const source = document.value.model?.source;
-  const gallery = source?.kind === 'gallery' ? source.id : null;
-  useEffect(() => {
-    let current = true;
-    found.value = [];
-    if (gallery !== null)
-      void loadRecordings(gallery).then((recordings) => {
-        if (current) found.value = recordings?.requests ?? [];
-      });
-    return () => {
-      current = false;
-    };
-  }, [gallery, found]);
-  return found.value;
 }
 
 const estimateDelay = 500; // milliseconds after the last key

@@ -10,6 +10,7 @@ import { showText } from './actions';
 import { HandPanel } from './HandPanel';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
+import { useRecorded } from './recorded';
 import type { FeatureKind } from './words';
 
 interface EditsProps {
@@ -70,6 +71,7 @@ export function EditsPanel({ pickKind }: EditsProps) {
 
 /** Known edits of a gallery model, one click each. */
 function Suggestions() {
+  const recorded = useRecorded();
   const found = useSignal<readonly Suggestion[]>([]);
   const { model, layers } = document.value;
   const id = model?.source.kind === 'gallery' ? model.source.id : null;
@@ -84,7 +86,8 @@ function Suggestions() {
   }, [id, found]);
   const made = new Set(layers.map(({ layer }) => layer.request));
   const open = found.value.filter(({ request, edit }) => edit !== null && !made.has(request));
-  if (open.length === 0) return null;
+  // Where requests are recorded, the request box offers those.
+  if (open.length === 0 || recorded.length > 0) return null;
   return (
     <section class="suggestions" aria-label="Suggestions">
       <h3>Try</h3>

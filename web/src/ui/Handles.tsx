@@ -70,7 +70,7 @@ export function Handles() {
         translate: `${x}px ${y}px`,
         visibility: isBehind && pull.peek() === null ? 'hidden' : 'visible',
       });
-      const reading = button.querySelector<HTMLElement>('.reading');
+      const reading = button.querySelector<HTMLElement>('.pull-reading');
       if (reading) {
         const room = reading.offsetWidth / 2 + 8;
         reading.style.translate = `${Math.min(innerWidth - room, Math.max(room, x)) - x}px`;
@@ -265,7 +265,7 @@ function Reading() {
     text.value = `${reading}${atEnd ? ' · as far as it goes' : ''}`;
   });
   return (
-    <span class="reading" role="status">
+    <span class="pull-reading" role="status">
       {text.value}
     </span>
   );

@@ -9,7 +9,6 @@ import { choiceOf, choose, currentTarget, isDemo, maxVotes, recorded, settings }
 import { sentence } from '../session/session';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
-import './model_dialog.css';
 
 const keepings: readonly { id: Keeping; label: string }[] = [
   { id: 'memory', label: 'Only until this page closes' },

@@ -64,7 +64,7 @@ const steps: readonly Step[] = [
   {
     at: ['.composer', '.suggestions', '.hand-buttons', '.tabs'],
     title: 'Or say what to change',
-    text: 'Pick one of the suggestions for this model, or set an edit up by hand: operator, direction, what may give way.',
+    text: 'In a sentence, in your language. Without a key of a language model, the suggestions show how it works.',
   },
   {
     at: ['.card', '.side.right', '.tabs'],
