@@ -19,7 +19,7 @@ namespace parsel::gltf {
 class JsonText {
  public:
   /// `null`.
-  JsonText() : raw_("null") {}
+  JsonText();
   /// A new value, written compactly; strings must be UTF-8.
   explicit JsonText(const nlohmann::ordered_json& value);
   /// Any valid JSON text (RFC 8259) of at most 128 levels. Keeps everything, leading and trailing white space included.
@@ -82,5 +82,7 @@ struct JsonText::Member {
   JsonText value;
   std::string after;  ///< white space before the comma or the end
 };
+
+inline JsonText::JsonText() : raw_("null") {}
 
 }  // namespace parsel::gltf

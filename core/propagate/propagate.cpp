@@ -14,8 +14,10 @@ namespace {
 constexpr const char* stage = "propagate";
 /// A seed must be able to go at least this far to one side, as a share of the limit.
 constexpr double least_range = 0.02;
-/// Parts that the search for revisions may solve, about: it bounds its time on large models.
-constexpr int revision_work = 600;
+/// What the search for revisions may cost, in the units of Loop::cost(): about a tenth of a second natively. Not the
+/// clock: the same input must give the same program everywhere.
+constexpr int revision_cost = 100'000;
+constexpr int most_revision_runs = 40;
 
 Motion still() {
   Motion motion;
@@ -81,6 +83,14 @@ class Loop {
       }
     }
     return broken;
+  }
+
+  /// How much work the search was, about 1000 a millisecond.
+  int cost() const {
+    int cost = 1;
+    for (const TraceStep& step : trace_.steps)
+      cost += step.own_candidates + step.neighbour_candidates + 4 * step.pairs + 100 * step.solved;
+    return cost;
   }
 
   /// Hints that might have served better: for the parts that the search edited by itself, up to two relations away from
@@ -495,8 +505,7 @@ class Loop {
 /// end is known.
 Revisions find_revisions(const Shape& shape, const ResolvedRequest& request, const PropagateOptions& options,
                          const Loop& first, const Progress& progress) {
-  const auto active = static_cast<int>(active_parts(shape).size());
-  int budget = std::clamp(revision_work / std::max(active, 1), 4, 48);
+  int budget = std::min(revision_cost / first.cost(), most_revision_runs);
   const Progress silent;
   Revisions chosen;
   std::size_t fewest = first.broken_relations().size();

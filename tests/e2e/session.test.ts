@@ -175,8 +175,8 @@ describe('an edit by hand', () => {
       Object.assign(globalThis, { seen });
       const answered = async (_: string, parameters: object) => {
         seen.push((parameters as { edit: unknown }).edit);
-        const result = { program: { ...answer, layers: answer.layers.slice(0, 1) }, trace: {} };
-        return { result, buffers: [] };
+        const trace = { steps: [], notes: [], stop: '' };
+        return { result: { program: { ...answer, layers: answer.layers.slice(0, 1) }, trace }, buffers: [] };
       };
       Object.assign(parsel.client(), { call: answered });
     }, edits);
