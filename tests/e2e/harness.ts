@@ -57,6 +57,12 @@ export function useSite(): { readonly url: string; readonly browser: Browser } {
   };
 }
 
+/** What a page that was built without a gallery, and a test's own gallery models, have in its place. */
+function emptyAnswer(path: string): string | null {
+  if (path === 'gallery/gallery.json') return '[]';
+  return /^recordings\/[^/]+\.json$/.test(path) ? '{"requests":[],"replies":{},"models":[]}' : null;
+}
+
 /** Serves web/dist, or another built page, at /some/where/; answers with the page's address. */
 export async function serve(folder = dist): Promise<{ url: string; server: Server }> {
   if (!existsSync(join(dist, 'index.html'))) throw new Error('web/dist is not built: run ./web/start.sh --build-only');
@@ -69,8 +75,8 @@ export async function serve(folder = dist): Promise<{ url: string; server: Serve
       const bytes = await readFile(join(folder, relative));
       response.writeHead(200, { 'Content-Type': types[extname(relative)] ?? 'application/octet-stream' }).end(bytes);
     } catch {
-      // A page that was built without a gallery has an empty one.
-      if (relative === 'gallery/gallery.json') response.writeHead(200, { 'Content-Type': types['.json'] }).end('[]');
+      const empty = emptyAnswer(relative);
+      if (empty !== null) response.writeHead(200, { 'Content-Type': types['.json'] }).end(empty);
       else response.writeHead(404).end();
     }
   });

@@ -141,7 +141,7 @@ describe('opening', () => {
     await pick(page, [file('stool.glb', await compress(stool, how))]);
     await opened();
     await expect
-      .poll(() => page.getByRole('status').textContent())
+      .poll(() => page.getByRole('status').first().textContent())
       .toMatch(/came compressed with (Draco|Meshopt); what you export will not be/);
   });
 });
@@ -198,9 +198,11 @@ describe('what cannot be opened', () => {
   it('can be cancelled while it is decompressed, with the work at hand untouched', async () => {
     await page.route('**/draco_decoder*.wasm', () => {}); // never answers
     await pick(page, [file('slow.glb', await compress(stool, 'Draco'))]);
-    await expect.poll(() => page.getByRole('status').textContent()).toMatch(/Reading the model · decompressing Draco/);
+    await expect
+      .poll(() => page.getByRole('status').first().textContent())
+      .toMatch(/Reading the model · decompressing Draco/);
     await page.getByRole('button', { name: 'Cancel' }).click();
-    await expect.poll(() => page.getByRole('status').textContent()).toBe('');
+    await expect.poll(() => page.getByRole('status').first().textContent()).toBe('');
     expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('stool');
     expect(complaints).toEqual([]);
   });

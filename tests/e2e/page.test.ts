@@ -60,7 +60,9 @@ describe('the page', () => {
     await context.route('**/*.wasm', (route) => route.abort());
     const page = await context.newPage();
     await page.goto(site.url);
-    await expect.poll(() => page.getByRole('status').textContent()).toMatch(/could not be loaded .* Reload the page/);
+    await expect
+      .poll(() => page.getByRole('status').first().textContent())
+      .toMatch(/could not be loaded .* Reload the page/);
     await context.close();
   });
 });

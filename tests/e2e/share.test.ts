@@ -52,7 +52,7 @@ describe('a link', () => {
     expect(text.length).toBeLessThan(2048);
     process.stdout.write(`a link for three layers: ${text.length} bytes\n`);
     const fresh = await openLink(new URL(text).hash);
-    await expect.poll(() => fresh.page.getByRole('status').textContent()).toMatch(/made on “stool”/);
+    await expect.poll(() => fresh.page.getByRole('status').first().textContent()).toMatch(/made on “stool”/);
 
     const other = toGlb(stoolGltf((name) => `${name}x`));
     await pick(fresh.page, file(other));
@@ -70,7 +70,7 @@ describe('a link', () => {
   it('as a viewer has sliders and nothing else', async () => {
     const text = await link();
     const viewer = await openLink(new URL(text).hash, '?embed&debug');
-    await expect.poll(() => viewer.page.getByRole('status').textContent()).toMatch(/made on/);
+    await expect.poll(() => viewer.page.getByRole('status').first().textContent()).toMatch(/made on/);
     expect(await viewer.page.locator('.bar, .side').count()).toBe(0);
     await viewer.page.context().close();
   });
