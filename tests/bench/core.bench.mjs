@@ -7,28 +7,11 @@
 // when opening a model; processor time, so that a busy machine does not disturb them.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
-import { fileURLToPath, pathToFileURL } from 'node:url';
-
-const module = fileURLToPath(new URL('../../build/wasm/wasm/parsel', import.meta.url));
-const { default: createModule } = await import(pathToFileURL(`${module}.mjs`).href);
-const compiled = await WebAssembly.compile(readFileSync(`${module}.wasm`));
+import { loadCore } from '../../web/tools/core.mjs';
 
 /** A module of its own, so that its memory is that of one model; warm, as the worker makes it at start. */
 async function fresh() {
-  const core = await new Promise((resolve, reject) => {
-    createModule({
-      instantiateWasm(imports, receive) {
-        WebAssembly.instantiate(compiled, imports).then(receive, reject);
-        return {};
-      },
-    }).then(resolve, reject);
-  });
-  const call = (method, parameters, buffers = []) => {
-    const reply = core.invoke(method, JSON.stringify(parameters), buffers, null);
-    const { result, error } = JSON.parse(reply.json);
-    if (error) throw new Error(`${method}: ${error.place}: ${error.cause}; ${error.fix}`);
-    return { result, buffers: reply.buffers };
-  };
+  const call = await loadCore();
   call('warm_up', {});
   return call;
 }

@@ -1,31 +1,20 @@
 // The outliner and the exploded view: labels that a person gives, why parts move, parts drawn apart.
-import type { Server } from 'node:http';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { beforeEach, describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { launch, openModel, outputFolder, serve, stillPicture } from './harness';
+import { openModel, outputFolder, stillPicture, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
-let server: Server;
-let url: string;
-let browser: Browser;
+const site = useSite();
 let page: Page;
 let complaints: string[];
 let shape: Shape;
-beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
 beforeEach(async () => {
   await page?.context().close();
-  ({ page, complaints } = await openModel(browser, url, stool));
+  ({ page, complaints } = await openModel(site.browser, site.url, stool));
   shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
 });
 

@@ -1,29 +1,18 @@
 // Handles in the view: a face is pulled by the mouse and by the keyboard, the whole shape follows, and it is one step.
-import type { Server } from 'node:http';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { stool } from './fixture';
-import { launch, openModel, outputFolder, serve } from './harness';
+import { openModel, outputFolder, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
-let server: Server;
-let url: string;
-let browser: Browser;
+const site = useSite();
 let page: Page;
 let complaints: string[];
-beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
 beforeEach(async () => {
   await page?.context().close();
-  ({ page, complaints } = await openModel(browser, url, stool));
+  ({ page, complaints } = await openModel(site.browser, site.url, stool));
   await page.getByRole('button', { name: 'seat', exact: true }).click();
   await handle('Pull left of seat').waitFor();
   await page.waitForFunction(() => parsel.stage()?.isStill()); // the camera has arrived

@@ -12,7 +12,7 @@ source "$here/fetch.sh"
 # Every object file that is linked together must be built with the same exception scheme.
 flags="-O3 -fwasm-exceptions"
 key=$({ cat "$here/sources.sha256"; find "$here" -type f ! -name '*.md' -print0 | sort -z | xargs -0 cat; \
-        emcc --version | head -n 1; echo "$flags"; } | sha256sum | cut -c1-16)
+        emcc --version | sed -n 1p; echo "$flags"; } | sha256sum | cut -c1-16)
 prefix=$cache/wasm-deps-$key
 if [ -e "$prefix/complete" ]; then
   echo "$prefix"
