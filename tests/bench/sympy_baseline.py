@@ -12,8 +12,8 @@ on the same shape (`parsel inspect`) and the same edit (format parsel/edit v1) a
 Prints CSV: benchmark,case,metric,value. Solving everything takes hours, so with --sample N only N candidates of each
 operator (drawn at random) are worked on at every part, and the time of that operator is scaled by how many it has. The
 line `extrapolated` then is 1, `seconds` is the estimate and `seconds_measured` what was really spent. --sample 0 works on
-all. --parts N stops after N solved parts, --seconds ends the run at the next operator (`finished` is 0 in both cases, and
-`seconds` that of the parts done). Which edit the search goes on with is found by a numeric screen, whose time is not
+all. --parts N stops after N solved parts, --seconds after that much algebra (`finished` is 0 in both cases, and `seconds` that of
+what was done). Which edit the search goes on with is found by a numeric screen, whose time is not
 counted: only the algebra is.
 
 Left out, to the baseline's advantage: ARAP energies, neighbour edits, breaking edits, change_count and change_delta. A
@@ -281,15 +281,19 @@ class Baseline:
             pool = [e for e in everything if e[0] == op]
             if not pool:
                 continue
-            if time.process_time() - self.began > self.options.seconds:
-                self.finished = False
-                break
             drawn = pool
             if self.options.sample and self.options.sample < len(pool):
                 drawn, self.extrapolated = self.random.sample(pool, self.options.sample), True
-            spent = sum(self.work(part, edit)[0] for edit in drawn)
+            spent = 0.0
+            for edit in drawn:
+                if self.measured + spent > self.options.seconds:
+                    self.finished = False
+                    break
+                spent += self.work(part, edit)[0]
             self.measured += spent
             self.seconds += spent * len(pool) / len(drawn)
+            if not self.finished:
+                return
         if ranked and ranked[0][0] <= ONE_EDITED:
             chosen = everything[ranked[0][3]]
         amounts = self.work(part, chosen)[1] if chosen else []
@@ -324,7 +328,7 @@ def main():
     parser.add_argument("shape", help="what `parsel inspect` prints")
     parser.add_argument("edit", help="format parsel/edit v1")
     parser.add_argument("--sample", type=int, default=3, help="candidates of each operator and part; 0: all")
-    parser.add_argument("--seconds", type=float, default=600, help="end the run after this processor time")
+    parser.add_argument("--seconds", type=float, default=600, help="end the run after this processor time of algebra")
     parser.add_argument("--parts", type=int, default=0, help="end after this many solved parts; 0: all")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()

@@ -49,7 +49,7 @@ const inferenceSchema = v.strictObject({
   }),
   /** Those kept, by at least 60 % of the votes. */
   hints: v.array(v.strictObject({ part: v.string(), hint: v.string(), votes: v.number(), of: v.number() })),
-  /** Every relation asked about; `votes` are those for `keep` as it is. */
+  /** Every relation asked about; `votes` are those for the answer given. */
   relations: v.array(
     v.strictObject({ relation: v.string(), keep: v.boolean(), votes: v.number(), of: v.number(), words: v.string() }),
   ),
