@@ -1,7 +1,7 @@
 // Keeps the work in IndexedDB, so that a reload or a crash loses nothing. The model's bytes are written when it changes,
 // everything else a moment after each change.
 import { effect } from '@preact/signals';
-import { createStore, get, setMany, type UseStore } from 'idb-keyval';
+import { createStore, del, get, set, setMany, type UseStore } from 'idb-keyval';
 import type { ModelFiles } from '../scene/load';
 import { readSaved, type Saved, save } from '../share/saved';
 import type { ModelSource } from './document';
@@ -24,10 +24,31 @@ const opened = () => {
   return store;
 };
 
+/** Where a tab remembers the work that it put aside for its own reload: another tab may save in the meantime. */
+const asideKey = 'parsel.reload';
+
+interface Aside {
+  readonly model: StoredModel;
+  readonly work: unknown;
+}
+
+async function takeAside(): Promise<Aside | undefined> {
+  const key = sessionStorage.getItem(asideKey);
+  if (key === null) return undefined;
+  sessionStorage.removeItem(asideKey);
+  const aside = await get<Aside>(key, opened());
+  await del(key, opened());
+  return aside;
+}
+
 /** The work of the last visit; null when there is none, or the browser keeps nothing. */
 export async function restore(): Promise<Restored | null> {
   try {
-    const [model, work] = await Promise.all([get<StoredModel>('model', opened()), get('work', opened())]);
+    const aside = await takeAside();
+    const [model, work] =
+      aside === undefined
+        ? await Promise.all([get<StoredModel>('model', opened()), get('work', opened())])
+        : [aside.model, aside.work];
     if (model === undefined) return null;
     const read = readSaved(work);
     return read.ok ? { ...model, saved: read.saved } : null;
@@ -58,10 +79,19 @@ async function write(): Promise<boolean> {
   }
 }
 
-/** Saves at once, for a reload; false when the reload would lose the work. */
-export function saveNow(): Promise<boolean> {
-  written = null; // another page may have put its own model there
-  return write();
+/** Puts the work aside for this tab's reload; false when the reload would lose it. */
+export async function saveNow(): Promise<boolean> {
+  const current = document.peek();
+  if (current.model === null) return true;
+  const { files, source } = current.model;
+  const key = `reload ${crypto.randomUUID()}`;
+  try {
+    await set(key, { model: { files, source }, work: save(current) } satisfies Aside, opened());
+    sessionStorage.setItem(asideKey, key);
+    return true;
+  } catch {
+    return false;
+  }
 }
 
 /** Starts saving. Where the browser refuses, the page works on, without a net. */
