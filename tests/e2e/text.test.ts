@@ -84,6 +84,7 @@ describe('the tour', () => {
     await at(3);
     await page.keyboard.press('Escape');
     expect(await tour().count()).toBe(0);
+    await page.waitForTimeout(1000); // saving waits for a pause
     await page.reload();
     await page.locator('.card').first().waitFor();
     expect(await page.getByRole('button', { name: 'Show me around' }).count()).toBe(0);
