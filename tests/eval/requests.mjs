@@ -13,12 +13,12 @@
 //
 // Variants: the first reply alone, all replies voted, and the voted seed without hints and validity ("seed only").
 import { readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { loadCore, root } from '../../web/tools/core.mjs';
 import { readRecordings, renderRequests } from '../../web/tools/prompts.mjs';
 
-const { createRequire } = await import('node:module');
 const { runnerImport } = await import(createRequire(join(root, 'web', 'package.json')).resolve('vite'));
 const load = async (file) => (await runnerImport(join(root, 'web', 'src', 'program', file))).module;
 const { checkProgram } = await load('check.ts');
@@ -26,7 +26,10 @@ const { interpretProgram } = await load('interpret.ts');
 
 const { values: options } = parseArgs({ options: { json: { type: 'string' } } });
 const core = await loadCore();
-const gallery = core('gallery', {}).result.models;
+const {
+  result: { models: gallery },
+  buffers,
+} = core('gallery', {});
 const expected = JSON.parse(readFileSync(join(root, 'prompts', 'expected.json'), 'utf8'));
 const recordings = readRecordings();
 
@@ -150,8 +153,7 @@ for (const { model, request, kind, gallery: id, edit, unclear } of expected) {
     continue;
   }
   const entry = gallery.findIndex((one) => one.id === model);
-  const file = core('gallery', {}).buffers[entry];
-  const { shape } = core('open', { name: model, external: [] }, [file]).result;
+  const { shape } = core('open', { name: model, external: [] }, [buffers[entry]]).result;
   const truth = { unclear: unclear === true };
   if (!truth.unclear) {
     truth.edit = edit ?? gallery[entry].requests.find((one) => one.id === id).edit;
@@ -176,7 +178,7 @@ for (const { model, request, kind, gallery: id, edit, unclear } of expected) {
   rows.push({ model, request, kind, outcome: voted.seed.outcome, refused: voted.refused.length, ...results.voting });
 }
 
-if (expected.length > 0 && [...recordings.values()].every(({ replies }) => replies.length === 1)) delete variants.voting;
+if ([...recordings.values()].every(({ replies }) => replies.length === 1)) delete variants.voting;
 
 const number = (value) => (Number.isFinite(value) ? value.toFixed(3) : 'none');
 for (const { model, request, seed, relations, hints, mesh, refused } of rows) {
