@@ -123,7 +123,30 @@ class Loop {
     note_fixed_parts();
     note_unused_hints();
     say_why_it_stopped();
-    return conclude();
+    Propagation result;
+    result.program.shape_name = shape_.name;
+    result.program.shape_sha256 = shape_.sha256;
+    layer_.parameter = {options_.parameter, at_.front(), at_.back(), 0};
+    result.program.layers.push_back(std::move(layer_));
+    Layer& layer = result.program.layers[0];
+    report(progress_, "finding the range", 0, 2);
+    const Range range = find_range(shape_, result.program, 0, options_.limit);
+    layer.parameter.min = range.min;
+    layer.parameter.max = range.max;
+    std::set<std::string> disabled;
+    for (const RelationIndex relation : request_.disabled) disabled.insert(id(relation));
+    report(progress_, "proving the relations", 1, 2);
+    layer.relations = prove_relations(shape_, result.program, 0, disabled);
+
+    trace_.parameter = options_.parameter;
+    trace_.samples.assign(at_.begin(), at_.end());
+    trace_.exact = exact;
+    trace_.one_edited = delta_one_edited;
+    trace_.both_edited = delta_both_edited;
+    for (const RelationIndex relation : request_.dissolved) trace_.dissolved.push_back(id(relation));
+    trace_.disabled.assign(disabled.begin(), disabled.end());
+    result.trace = std::move(trace_);
+    return result;
   }
 
  private:
@@ -454,33 +477,6 @@ class Loop {
     } else {
       trace_.stop = "no relation ties the edited parts to any other part, so nothing follows them";
     }
-  }
-
-  Propagation conclude() {
-    Propagation result;
-    result.program.shape_name = shape_.name;
-    result.program.shape_sha256 = shape_.sha256;
-    layer_.parameter = {options_.parameter, at_.front(), at_.back(), 0};
-    result.program.layers.push_back(std::move(layer_));
-    Layer& layer = result.program.layers[0];
-    report(progress_, "finding the range", 0, 2);
-    const Range range = find_range(shape_, result.program, 0, options_.limit);
-    layer.parameter.min = range.min;
-    layer.parameter.max = range.max;
-    std::set<std::string> disabled;
-    for (const RelationIndex relation : request_.disabled) disabled.insert(id(relation));
-    report(progress_, "proving the relations", 1, 2);
-    layer.relations = prove_relations(shape_, result.program, 0, disabled);
-
-    trace_.parameter = options_.parameter;
-    trace_.samples.assign(at_.begin(), at_.end());
-    trace_.exact = exact;
-    trace_.one_edited = delta_one_edited;
-    trace_.both_edited = delta_both_edited;
-    for (const RelationIndex relation : request_.dissolved) trace_.dissolved.push_back(id(relation));
-    trace_.disabled.assign(disabled.begin(), disabled.end());
-    result.trace = std::move(trace_);
-    return result;
   }
 
   const Shape& shape_;
