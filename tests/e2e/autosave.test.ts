@@ -1,0 +1,100 @@
+// What the browser keeps: a reload right after a change, two tabs with work of their own, a duplicated tab, a new one.
+import type { BrowserContext, Page } from 'playwright-core';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import type { Shape } from '../../web/src/program/types';
+import type { DebugHandle } from '../../web/src/ui/debug';
+import { program, stool } from './fixture';
+import { openModel, pick, useSite } from './harness';
+
+declare const parsel: DebugHandle;
+
+const site = useSite();
+let page: Page;
+let context: BrowserContext;
+let complaints: string[];
+beforeEach(async () => {
+  ({ page, complaints } = await openModel(site.browser, site.url, stool));
+  context = page.context();
+});
+afterEach(async () => {
+  await context.close();
+  expect(complaints).toEqual([]);
+});
+
+const values = (of: Page) => of.evaluate(() => parsel.document().layers.map(({ value }) => value));
+const name = (of: Page) => of.evaluate(() => parsel.document().model?.files.name);
+const saved = () => page.waitForTimeout(1000); // saving waits for a pause
+
+async function addEdits(to: Page): Promise<void> {
+  const shape = (await to.evaluate(() => parsel.document().model?.shape)) as Shape;
+  await to.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
+  await to.locator('.card').nth(2).waitFor();
+}
+
+/** Another tab of the same browser. */
+async function newTab(address = page.url()): Promise<Page> {
+  const tab = await context.newPage();
+  await tab.goto(address);
+  return tab;
+}
+
+const openSecond = async (tab: Page) => {
+  await pick(tab, [{ name: 'second.glb', mimeType: 'model/gltf-binary', buffer: stool }]);
+  await expect.poll(() => name(tab)).toBe('second');
+};
+
+describe('the work of a tab', () => {
+  it('is there after a reload that leaves no time to save', async () => {
+    await addEdits(page);
+    await saved();
+    await page.getByRole('slider').first().fill('0.31');
+    await page.reload();
+    await page.locator('.card').nth(2).waitFor();
+    expect((await values(page))[0]).toBeCloseTo(0.31);
+  });
+
+  it('is its own: two tabs do not write over each other', async () => {
+    await addEdits(page);
+    const other = await newTab();
+    await openSecond(other);
+    await page.getByRole('slider').first().fill('0.2');
+    await saved();
+    await Promise.all([page.reload(), other.reload()]);
+    await page.locator('.card').nth(2).waitFor();
+    expect((await values(page))[0]).toBeCloseTo(0.2);
+    expect(await name(page)).toBe('stool');
+    await expect.poll(() => name(other)).toBe('second');
+    expect(await values(other)).toEqual([]);
+  });
+
+  it('is where a new tab begins, and goes on by itself from there', async () => {
+    await addEdits(page);
+    await saved();
+    const other = await newTab();
+    await other.locator('.card').nth(2).waitFor();
+    await other.getByRole('slider').first().fill('0.11');
+    await saved();
+    await page.reload();
+    await page.locator('.card').nth(2).waitFor();
+    expect((await values(page))[0]).toBe(0);
+  });
+
+  it('stays with the first when a tab is duplicated', async () => {
+    await addEdits(page);
+    await saved();
+    // A duplicate begins with the other's session storage, the name of its record included.
+    const kept = await page.evaluate(() => ({ ...sessionStorage }));
+    const duplicate = await context.newPage();
+    await duplicate.addInitScript((items) => {
+      if (sessionStorage.length === 0)
+        for (const [key, value] of Object.entries(items)) sessionStorage.setItem(key, value);
+    }, kept);
+    await duplicate.goto(page.url());
+    await duplicate.locator('.card').nth(2).waitFor();
+    await openSecond(duplicate);
+    await saved();
+    await page.reload();
+    await page.locator('.card').nth(2).waitFor();
+    expect(await name(page)).toBe('stool');
+  });
+});
