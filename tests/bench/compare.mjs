@@ -10,7 +10,11 @@ import { fileURLToPath } from 'node:url';
 const results = fileURLToPath(new URL('results.csv', import.meta.url));
 const [file, option] = process.argv.slice(2);
 const machine = `${cpus().length} x ${cpus()[0].model}`.replaceAll(',', ' ');
-const rows = (path) => readFileSync(path, 'utf8').split('\n').filter(Boolean).map((line) => line.split(','));
+const rows = (path) =>
+  readFileSync(path, 'utf8')
+    .split('\n')
+    .filter(Boolean)
+    .map((line) => line.split(','));
 
 const last = new Map();
 if (existsSync(results)) {

@@ -13,7 +13,9 @@ const [folder, seconds] = process.argv.slice(2);
 const tool = fileURLToPath(new URL('../../build/native-release/core/parsel', import.meta.url));
 const baseline = fileURLToPath(new URL('sympy_baseline.py', import.meta.url));
 const gallery = JSON.parse(readFileSync(join(folder, 'gallery.json'), 'utf8'));
-const figures = readFileSync(join(folder, 'figures.csv'), 'utf8').split('\n').map((line) => line.split(','));
+const figures = readFileSync(join(folder, 'figures.csv'), 'utf8')
+  .split('\n')
+  .map((line) => line.split(','));
 
 for (const name of cases) {
   const [model, id] = name.split('/');

@@ -8,6 +8,7 @@ import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { Protocol } from '../../web/src/llm/providers';
 import type { Recordings } from '../../web/src/llm/recordings';
+import type { Statement } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import type { Task } from '../../web/src/worker/protocol';
 import { renderRequests } from '../../web/tools/prompts.mjs';
@@ -260,6 +261,37 @@ describe('what was understood', () => {
     for (let i = 0; i < (await boxes.count()); i++) await boxes.nth(i).check();
     await expect.poll(disabled).toBe(0);
     expect(await layers(page)).toEqual(['widen the seat']);
+    await page.context().close();
+  });
+
+  it('is corrected field by field, each time in place of the layer before', async () => {
+    const { page, complaints } = await ready('openai');
+    await done(page);
+    answering([
+      { edits: [{ op: 'translate', part: 'seat', direction: [0.6, 0.8, 0], amount: '-2*x' }, ...widenSeat.edits] },
+    ]);
+    await say(page, 'change the seat');
+    await composer(page).getByText('Understood:').click();
+    await composer(page).getByText('Correct the 2 edits').click();
+    const seeds = () =>
+      page.evaluate(() =>
+        parsel.document().layers[0]?.layer.statements.filter(({ why }) => why?.kind === 'seed'),
+      ) as Promise<Statement[]>;
+    const [first, second] = [0, 1].map((i) => composer(page).locator('.seeds fieldset').nth(i));
+    expect(await first?.getByLabel('Direction').inputValue()).toBe('other'); // no axis of the list
+    await first?.getByLabel('Direction').selectOption({ label: 'front–back' });
+    await expect.poll(async () => (await seeds())[0]).toMatchObject({ op: 'translate', direction: [0, 0, 1] });
+    expect((await seeds())[0]).toMatchObject({ amount: '-2*x1' }); // what was not touched stays
+    await second?.getByRole('radio', { name: 'Grow' }).check({ force: true });
+    await expect.poll(async () => (await seeds())[1]).toMatchObject({ op: 'scale_3d', part: 'seat', amount: 'x1' });
+    await second?.getByLabel('Part to edit').selectOption('leg_front_left');
+    await expect
+      .poll(async () => (await seeds())[1])
+      .toMatchObject({ op: 'scale_3d', part: 'leg_front_left', origin: { part: 'leg_front_left', at: [0, 0, 0] } });
+    expect(await layers(page)).toEqual(['change the seat']);
+    await page.getByRole('button', { name: 'Undo: change the seat' }).click();
+    expect(await layers(page)).toEqual([]);
+    expect(complaints).toEqual([]);
     await page.context().close();
   });
 

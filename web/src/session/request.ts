@@ -193,8 +193,8 @@ export function chooseReading(reading: number): void {
   correct({ ...state, reading, edit: { ...others, seed } });
 }
 
-/** Changes hints or the relations that may break. */
-export function correctEdit(change: Partial<Pick<EditInput, 'hints' | 'disabled'>>): void {
+/** Changes the seed, hints or the relations that may break. */
+export function correctEdit(change: Partial<EditInput>): void {
   const state = request.peek();
   if (state.kind === 'understood' && state.edit !== null) correct({ ...state, edit: { ...state.edit, ...change } });
 }

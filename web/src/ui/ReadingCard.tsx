@@ -4,7 +4,7 @@ import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Answer } from '../llm/session';
 import { costOf, isDemo } from '../llm/settings';
-import type { Layer } from '../program/types';
+import type { Layer, Shape, Statement } from '../program/types';
 import type { Hint } from '../session/document';
 import {
   applyRequest,
@@ -20,7 +20,9 @@ import {
 import { document, pointedAt, task } from '../session/session';
 import { Hints } from './HandPanel';
 import { Icon } from './Icon';
-import { relationWords } from './words';
+import { SeedFields } from './SeedFields';
+import { choiceOf, isWhole, seedOf } from './seed_choice';
+import { relationWords, statementWords } from './words';
 
 export function ReadingCard({ state }: { state: Understood }) {
   const { inference } = state.answer;
@@ -95,6 +97,7 @@ function Corrections({ state }: { state: Understood }) {
           ))}
         </fieldset>
       )}
+      {state.edit !== null && <SeedCorrections shape={shape} seed={state.edit.seed} />}
       {state.edit !== null && <Hints shape={shape} except="" chosen={hintsOf(state)} />}
       {state.edit !== null && relations.length > 0 && (
         <details open={relations.some(({ keep }) => !keep)}>
@@ -152,6 +155,27 @@ function Corrections({ state }: { state: Understood }) {
       </div>
       <Failures answer={state.answer} />
     </div>
+  );
+}
+
+/** The edits themselves, field by field. */
+function SeedCorrections({ shape, seed }: { shape: Shape; seed: readonly Statement[] }) {
+  return (
+    <details class="seeds">
+      <summary>Correct {seed.length === 1 ? 'the edit' : `the ${seed.length} edits`}</summary>
+      {seed.map((statement, i) => (
+        <fieldset key={i} aria-label={statementWords(document.value, statement)}>
+          <SeedFields
+            shape={shape}
+            choice={choiceOf(shape, statement)}
+            nothing="choose a part…"
+            onChange={(next) => {
+              if (isWhole(shape, next)) correctEdit({ seed: seed.with(i, seedOf(shape, next)) });
+            }}
+          />
+        </fieldset>
+      ))}
+    </details>
   );
 }
 
