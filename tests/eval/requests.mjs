@@ -1,30 +1,35 @@
-// How well the recorded replies read their requests (ParSEL §7.3.1 and supplement §5.4, tables 2 and 3), against what was
-// written down by hand beforehand in prompts/expected.json.
+// How well the recorded replies read their requests (ParSEL §7.2.2, §7.3.1 and supplement §5.3, §5.4: tables 2 and 3),
+// against what was written down by hand beforehand in prompts/expected.json.
 //
-//   node tests/eval/requests.mjs [--json FILE]        (after ./web/start.sh --build-only)
+//   node tests/eval/requests.mjs [--json FILE] [--parsel TOOL]        (after ./web/start.sh --build-only)
 //
 // Acc(SE)  every seed edit's operator and operand stand in the program that the expected edit gives; for a request that
 //          asks for nothing these edits can do: it was called unclear
 // Acc(R)   share of the relations whose validity was judged as expected, averaged over the requests
 // J(T)     Jaccard similarity of the type hints, without those that change nothing in the expected program
 // Match    share of requests where all three are 1
-// Meshes   share of requests whose edited model, at some value of its slider, is the expected one: no corner off by more
+// meshes   share of requests whose edited model, at some value of its slider, is the expected one: no corner off by more
 //          than 1 % of the half-diagonal, wherever the whole stands
+// J(prog), D(geo), %Rel: as core/propagate/score.h says, over the requests that are not unclear; a reply that gives no
+//          program counts as one that does nothing. They need the command-line tool (--parsel, or a build of it).
 //
-// Variants: the first reply alone, all replies voted, and the voted seed without hints and validity ("seed only").
-import { readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
+// Variants: all replies voted; the first reply alone; the prompts of variants.mjs, one reply each; the voted seed without
+// hints and validity ("seed only"); the whole program by the language model alone ("one shot").
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { loadCore, root } from '../../web/tools/core.mjs';
 import { readRecordings, renderRequests } from '../../web/tools/prompts.mjs';
+import { meshDistance } from './mesh_distance.mjs';
+import { readReplies, variantPrompts } from './variants.mjs';
 
-const { runnerImport } = await import(createRequire(join(root, 'web', 'package.json')).resolve('vite'));
-const load = async (file) => (await runnerImport(join(root, 'web', 'src', 'program', file))).module;
-const { checkProgram } = await load('check.ts');
-const { interpretProgram } = await load('interpret.ts');
+const text = { type: 'string' };
+const { values: options } = parseArgs({ options: { json: text, parsel: text } });
+const builds = ['native-release', 'native-debug'].map((preset) => join(root, 'build', preset, 'core', 'parsel'));
+const tool = options.parsel ?? builds.find(existsSync);
 
-const { values: options } = parseArgs({ options: { json: { type: 'string' } } });
 const core = await loadCore();
 const {
   result: { models: gallery },
@@ -33,63 +38,7 @@ const {
 const expected = JSON.parse(readFileSync(join(root, 'prompts', 'expected.json'), 'utf8'));
 const recordings = readRecordings();
 
-// ------------------------------------------------------------------------------------------------------------ meshes
-
-/** Boxes of all parts and instances at a slider value, centred: [{label, corners}]. */
-function boxes(shape, checked, x) {
-  const { parts, groups } = interpretProgram(checked, shape, [x]);
-  const found = [];
-  const grouped = new Set();
-  for (const [index, relation] of shape.relations.entries()) {
-    if (groups[index] === null) continue;
-    const { label } = shape.parts.find(({ id }) => id === relation.parts[0]);
-    for (const id of relation.parts) grouped.add(id);
-    for (const corners of groups[index].instances) found.push({ label, corners });
-  }
-  for (const [index, part] of shape.parts.entries()) {
-    if (!part.virtual && !grouped.has(part.id)) found.push({ label: part.label, corners: parts[index] });
-  }
-  const all = found.flatMap(({ corners }) => corners);
-  const middle = [0, 1, 2].map((i) => (Math.max(...all.map((c) => c[i])) + Math.min(...all.map((c) => c[i]))) / 2);
-  return found.map(({ label, corners }) => ({ label, corners: corners.map((c) => c.map((v, i) => v - middle[i])) }));
-}
-
-const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-const apart = (a, b) => Math.max(...a.map((corner) => Math.min(...b.map((other) => distance(corner, other)))));
-const farthest = (from, to) =>
-  Math.max(
-    ...from.map(({ label, corners }) =>
-      Math.min(Infinity, ...to.filter((box) => box.label === label).map((box) => apart(corners, box.corners))),
-    ),
-  );
-/** Hausdorff distance over boxes of the same label. */
-const difference = (a, b) => (a.length === b.length ? Math.max(farthest(a, b), farthest(b, a)) : Infinity);
-
-/** Least distance of the model under a program, over its slider, from the one under the expected program. */
-function meshDistance(shape, program, truth) {
-  const checkedTruth = checkProgram(truth, shape).value;
-  const { max, min } = truth.layers[0].parameter;
-  const aim = boxes(shape, checkedTruth, max >= -min ? 0.6 * max : 0.6 * min);
-  const checked = checkProgram(program, shape).value;
-  const { min: low, max: high } = program.layers[0].parameter;
-  const at = (x) => difference(boxes(shape, checked, x), aim);
-  let best = { x: 0, by: Infinity };
-  for (let i = 0; i <= 80; ++i) {
-    const x = low + ((high - low) * i) / 80;
-    const by = at(x);
-    if (by < best.by) best = { x, by };
-  }
-  for (let step = (high - low) / 160; step > 1e-5; step /= 2) {
-    for (const x of [best.x - step, best.x + step]) {
-      if (x < low || x > high) continue;
-      const by = at(x);
-      if (by < best.by) best = { x, by };
-    }
-  }
-  return best.by;
-}
-
-// ---------------------------------------------------------------------------------------------------------- measures
+// ------------------------------------------------------------------------------------------------- table 3: the replies
 
 const byId = (shape) => {
   const nodes = new Map(shape.parts.filter((part) => !part.virtual).map((part) => [`node:${part.node}`, part.id]));
@@ -116,36 +65,91 @@ function hintScore(inferred, wanted, truth) {
   return union === 0 ? 1 : same / union;
 }
 
-function measure(shape, inference, edit, truth) {
-  if (truth.unclear) {
-    const right = inference.seed.outcome === 'unclear' || inference.edit === null ? 1 : 0;
-    return { seed: right, relations: 1, hints: 1, mesh: right === 1 ? 0 : Infinity };
-  }
-  if (edit === null) return { seed: 0, relations: 0, hints: 0, mesh: Infinity };
+function seedIsRight(shape, edit, truth) {
   const name = byId(shape);
   const known = signatures(truth.program);
-  const seed = edit.seed.every((one) => known.has(signature({ ...one, part: one.part && name(one.part) }))) ? 1 : 0;
+  return edit.seed.every((one) => known.has(signature({ ...one, part: one.part && name(one.part) })));
+}
+
+function measure(shape, inference, truth) {
+  const { edit } = inference;
+  if (truth.unclear) {
+    const right = inference.seed.outcome === 'unclear' || edit === null ? 1 : 0;
+    return { seed: right, relations: 1, hints: 1 };
+  }
+  if (edit === null) return { seed: 0, relations: 0, hints: 0 };
   const disabled = new Set(truth.edit.disabled ?? []);
   const kinds = new Map(shape.relations.map(({ id, kind }) => [id, kind]));
   const right = inference.relations.filter(
     ({ relation, keep }) => keep !== (disabled.has(relation) || disabled.has(`kind:${kinds.get(relation)}`)),
   );
-  const relations = inference.relations.length === 0 ? 1 : right.length / inference.relations.length;
+  const name = byId(shape);
   const wanted = new Map(Object.entries(truth.edit.hints ?? {}).map(([part, hint]) => [name(part), hint]));
   const inferred = new Map(inference.hints.map(({ part, hint }) => [part, hint]));
-  let mesh = Infinity;
+  return {
+    seed: seedIsRight(shape, edit, truth) ? 1 : 0,
+    relations: inference.relations.length === 0 ? 1 : right.length / inference.relations.length,
+    hints: hintScore(inferred, wanted, truth),
+  };
+}
+
+// ------------------------------------------------------------------------------------------------ table 2: the programs
+
+const scratch = mkdtempSync(join(tmpdir(), 'parsel-requests-'));
+process.on('exit', () => rmSync(scratch, { recursive: true }));
+if (tool === undefined)
+  process.stderr.write('No build of the command-line tool: J(prog), D(geo) and %Rel are left out.\n');
+
+/** A program of one layer that does what the statements say, and nothing else. */
+function programOf(shape, statements) {
+  const parameter = { name: 'x', min: -0.35, max: 0.35, value: 0 };
+  return {
+    format: 'parsel/program',
+    version: 1,
+    shape: { name: shape.name, sha256: shape.sha256 },
+    layers: [{ request: 'one shot', parameter, statements, relations: [] }],
+  };
+}
+
+/** The three measures, and how near the mesh comes. program: null when there is none. */
+function score(glb, shape, program, truth) {
+  const mesh = program === null ? Infinity : meshDistance(shape, program, truth.program);
+  if (tool === undefined) return { mesh };
+  const write = (name, content) => {
+    writeFileSync(join(scratch, name), content);
+    return join(scratch, name);
+  };
+  const [model, right, own] = [
+    write('model.glb', glb),
+    write('truth.json', JSON.stringify(truth.program)),
+    write('program.json', JSON.stringify(program ?? programOf(shape, []))),
+  ];
+  return { mesh, ...JSON.parse(execFileSync(tool, ['score', model, '--truth', right, '--program', own])) };
+}
+
+const orNothing = (work) => {
   try {
-    mesh = meshDistance(shape, propagated(edit), truth.program);
+    return work();
   } catch {
-    // What cannot be propagated is no mesh.
+    return null; // what cannot be propagated, or is refused, is no program
   }
-  return { seed, relations, hints: hintScore(inferred, wanted, truth), mesh };
+};
+
+function oneShotProgram(shape, inference) {
+  if (inference.edit === null) return null;
+  const program = programOf(shape, inference.edit.seed);
+  const empty = programOf(shape, []);
+  // The gate that every program passes.
+  return orNothing(() => meshDistance(shape, program, empty)) === null ? null : program;
 }
 
 // --------------------------------------------------------------------------------------------------------------- run
 
-const variants = { 'one reply': [], voting: [], 'seed only': [] };
+const readers = ['voting', 'one reply', 'no examples', 'no thinking', 'naive'];
+const makers = ['one shot', 'seed only', 'full'];
+const measured = new Map([...readers, ...makers].map((name) => [name, []]));
 const rows = [];
+
 for (const { model, request, kind, gallery: id, edit, unclear } of expected) {
   const [rendered] = renderRequests(core, [{ model, request }]);
   if (rendered.prompts.some(({ hash }) => !recordings.has(hash))) {
@@ -159,45 +163,84 @@ for (const { model, request, kind, gallery: id, edit, unclear } of expected) {
     truth.edit = edit ?? gallery[entry].requests.find((one) => one.id === id).edit;
     truth.program = propagated(truth.edit);
   }
-  const read = (take) => {
-    const replies = rendered.prompts.map(({ task, relation, hash }) => ({
-      task,
-      relation,
-      texts: take(recordings.get(hash).replies.map(({ text }) => text)),
-    }));
+  /** What the replies to the prompts mean; null when one has no reply. */
+  const infer = (prompts, textsOf) => {
+    const replies = prompts.map((prompt) => ({ ...prompt, texts: textsOf(prompt) }));
+    if (replies.some(({ texts }) => texts.length === 0)) return null;
     return core('read_replies', { request, replies }).result;
   };
-  const voted = read((texts) => texts);
-  const first = read((texts) => texts.slice(0, 1));
-  const results = {
-    'one reply': measure(shape, first, first.edit, truth),
-    voting: measure(shape, voted, voted.edit, truth),
-    'seed only': measure(shape, voted, voted.edit && { seed: voted.edit.seed }, truth),
+  const recorded = ({ hash }) => recordings.get(hash).replies.map((reply) => reply.text);
+  const ofVariant = (variant) => {
+    const { replies } = readReplies(variant);
+    return infer(variantPrompts(variant, rendered.prompts), ({ hash }) => [replies[hash]].filter(Boolean));
   };
-  for (const [name, result] of Object.entries(results)) variants[name].push(result);
-  rows.push({ model, request, kind, outcome: voted.seed.outcome, refused: voted.refused.length, ...results.voting });
+  const inferences = {
+    voting: infer(rendered.prompts, recorded),
+    'one reply': infer(rendered.prompts, (prompt) => recorded(prompt).slice(0, 1)),
+    'no examples': ofVariant('no_examples'),
+    'no thinking': ofVariant('no_thinking'),
+    naive: ofVariant('naive'),
+  };
+  const oneShot = ofVariant('one_shot');
+  for (const name of readers) {
+    if (inferences[name] !== null) measured.get(name).push(measure(shape, inferences[name], truth));
+  }
+  const { voting } = inferences;
+  const row = { model, request, kind, outcome: voting.seed.outcome, refused: voting.refused.length };
+  Object.assign(row, measured.get('voting').at(-1));
+  if (!truth.unclear) {
+    const programs = {
+      full: voting.edit && orNothing(() => propagated(voting.edit)),
+      'seed only': voting.edit && orNothing(() => propagated({ seed: voting.edit.seed })),
+    };
+    if (oneShot !== null) programs['one shot'] = oneShotProgram(shape, oneShot);
+    for (const [name, program] of Object.entries(programs)) {
+      const result = score(buffers[entry], shape, program, truth);
+      measured.get(name).push(result);
+      row[name] = result;
+    }
+  }
+  rows.push(row);
 }
-
-if ([...recordings.values()].every(({ replies }) => replies.length === 1)) delete variants.voting;
 
 const number = (value) => (Number.isFinite(value) ? value.toFixed(3) : 'none');
-for (const { model, request, seed, relations, hints, mesh, refused } of rows) {
+for (const { model, request, seed, relations, hints, refused, full, 'one shot': oneShot } of rows) {
   const whole = seed === 1 && relations === 1 && hints === 1 ? ' ' : '-';
-  const measures = `SE ${seed}  R ${relations.toFixed(2)}  T ${hints.toFixed(2)}  mesh ${number(mesh)}`;
+  const meshes = [
+    ['mesh', full],
+    ['one shot', oneShot],
+  ].map(([name, result]) => (result === undefined ? '' : `  ${name} ${number(result.mesh)}`));
+  const measures = `SE ${seed}  R ${relations.toFixed(2)}  T ${hints.toFixed(2)}${meshes.join('')}`;
   console.log(`${whole} ${model}: ${request}  |  ${measures}${refused > 0 ? `  refused ${refused}` : ''}`);
 }
+
 const mean = (list, of) => list.reduce((sum, one) => sum + of(one), 0) / list.length;
-const totals = {};
-for (const [name, list] of Object.entries(variants)) {
-  if (list.length === 0) continue;
-  totals[name] = {
-    requests: list.length,
-    'Acc(SE)': mean(list, ({ seed }) => seed),
-    'Acc(R)': mean(list, ({ relations }) => relations),
-    'J(T)': mean(list, ({ hints }) => hints),
-    Match: mean(list, ({ seed, relations, hints }) => (seed === 1 && relations === 1 && hints === 1 ? 1 : 0)),
-    meshes: mean(list, ({ mesh }) => (mesh <= 0.01 ? 1 : 0)),
-  };
-}
-console.table(totals);
-if (options.json) writeFileSync(options.json, `${JSON.stringify({ totals, rows }, null, 1)}\n`);
+const table = (names, columns) =>
+  Object.fromEntries(
+    names
+      .filter((name) => measured.get(name).length > 0)
+      .map((name) => {
+        const list = measured.get(name);
+        const cells = Object.entries(columns).map(([column, of]) => [column, mean(list, of)]);
+        return [name, { requests: list.length, ...Object.fromEntries(cells) }];
+      }),
+  );
+const replies = table(readers, {
+  'Acc(SE)': ({ seed }) => seed,
+  'Acc(R)': ({ relations }) => relations,
+  'J(T)': ({ hints }) => hints,
+  Match: ({ seed, relations, hints }) => (seed === 1 && relations === 1 && hints === 1 ? 1 : 0),
+});
+const programs = table(makers, {
+  ...(tool === undefined
+    ? {}
+    : {
+        'J(prog)': ({ programmatic }) => programmatic,
+        'D(geo)': ({ geometric }) => geometric,
+        '%Rel': ({ structural }) => structural,
+      }),
+  meshes: ({ mesh }) => (mesh <= 0.01 ? 1 : 0),
+});
+console.table(replies);
+console.table(programs);
+if (options.json) writeFileSync(options.json, `${JSON.stringify({ replies, programs, rows }, null, 1)}\n`);
