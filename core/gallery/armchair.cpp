@@ -47,15 +47,18 @@ void layout(ModelBuilder& m) {
   const double seat_y = base_top - overlap + cushion_height / 2;
   const MeshId seat_mesh = m.mesh("seat_cushion", {inner, cushion_height, seat_depth}, soft, cushion(0.045, 0.016));
   const NodeId seat = m.part("seat_cushion", seat_mesh, {0, seat_y, seat_z});
-  m.attach({seat}, {base, back}, RelationKind::line);
-  m.attach({seat}, {arm_left, arm_right}, RelationKind::point);
+  // It lies on most of the base and along most of the arms, though not in their middle.
+  m.attach(seat, base, RelationKind::face);
+  m.attach(seat, back, RelationKind::line);
+  m.attach({seat}, {arm_left, arm_right}, RelationKind::line);
 
   const double pillow = 0.13, pillow_height = 0.95 * (back_height - cushion_height);
   const MeshId pillow_mesh = m.mesh("back_cushion", {0.86 * inner, pillow_height, pillow}, soft, cushion(0.05, 0.02));
   const NodeId back_cushion =
       m.part("back_cushion", pillow_mesh,
              {0, seat_y + cushion_height / 2 - overlap + pillow_height / 2, back_front - overlap + pillow / 2});
-  m.attach({back_cushion}, {seat, back}, RelationKind::line);
+  m.attach(back_cushion, seat, RelationKind::line);
+  m.attach(back_cushion, back, RelationKind::face);
 
   m.edit({"widen", "Make the seat wider.", {seed_scale_1d(base, Vec3::UnitX())}, {}, {}}, [=](double x) {
     return GalleryValues{{"inner_width", inner * (1 + x)}};

@@ -51,8 +51,8 @@ void layout(ModelBuilder& m) {
                {{radius * std::sin(angle), leg_height / 2, radius * std::cos(angle)}, turn(Vec3::UnitY(), angle)}));
   }
   const Side ring = m.rotation(legs);
-  // Three legs under the top are symmetric from left to right, not from front to back.
-  m.attach(ring, top, count % 2 == 1 ? RelationKind::line : RelationKind::face);
+  // Three legs under the top are symmetric from left to right only, but reach over most of it from front to back.
+  m.attach(ring, top, RelationKind::face);
 
   const double metres = m.half_diagonal();
   m.edit({"widen",

@@ -357,8 +357,8 @@ class Loop {
     } else {
       const Scene scene{graph_, edits_, goals_, options_.parameter, at_, solve_options_};
       solution = solve_part(scene, part, hint, constraints, trace);
-      // A mirror image that tears more joints than it restores is none that anyone wants.
-      if (mirrored && mirrored->lost <= lost_with(part, solution.steps)) {
+      // A mirror image that tears as many joints as it keeps symmetries is none that anyone wants.
+      if (mirrored && mirrored->lost < lost_with(part, solution.steps)) {
         solution = mirrored->solution;
         trace.why = mirrored->why;
       }

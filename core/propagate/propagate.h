@@ -2,8 +2,11 @@
 //
 // The loop: apply the seed edits; as long as a relation between an edited and an unedited part is broken, take the part
 // with the most of them (ties by id), find its edit and add it. Symmetry first: the mirror image of a mirrored
-// neighbour's edit, unless that breaks more relations than it restores; then attachments, by solve_part(). A relation
-// that an edit leaves broken is recorded and not chased.
+// neighbour's edit, if that keeps all relations to edited parts; then attachments, by solve_part(). Where neither keeps
+// all, what breaks fewer is taken, and of equals what keeps the joints: two handles, one above the other, that are
+// mirror images go up with their door rather than apart from it. (The mirror image first, as the paper has it, tears 46
+// more of 2288 edits of furniture visibly, with gaps of 60 instead of 38 half-diagonals in all.) A relation that an
+// edit leaves broken is recorded and not chased.
 //
 // A second look, beyond the paper: when relations stay broken, single parts near them are made to stretch where they
 // were moved, or the other way round, and the whole is searched again; what breaks fewest is kept. The paper's loop

@@ -14,6 +14,8 @@ namespace {
 constexpr int steps = 48;
 constexpr double precision = 1e-6;  ///< of the limit
 constexpr double decimals = 1e4;
+/// Instances of a row that stand nearer than this at rest, in their own thicknesses, may overlap: they touch already.
+constexpr double least_room = 0.1;
 
 class Limits {
  public:
@@ -60,6 +62,8 @@ class Limits {
         std::string fault = judge(group.instances[k], part.hexahedron.corners, part.id);
         if (!fault.empty()) return fault;
       }
+      if (relation.kind == RelationKind::translation && run_together(relation, group))
+        return shape_.parts[relation.parts[0]].label + " instances would run into each other";
     }
     return "";
   }
@@ -69,6 +73,22 @@ class Limits {
     const double least = relative_jacobians(corners, rest).minCoeff();
     if (least >= collapse_ratio) return "";
     return id + (least < 0 ? " would turn inside out" : " would collapse");
+  }
+
+  /// Room between neighbours of a row, in thicknesses of an instance; negative when they overlap.
+  static double room(const Vec3& start, const Vec3& end, std::size_t count, const Corners& instance) {
+    const Vec3 along = (end - start).normalized();
+    const Eigen::Matrix<double, 8, 1> extent = instance * along;
+    const double thickness = extent.maxCoeff() - extent.minCoeff();
+    return (end - start).norm() / static_cast<double>(count - 1) / thickness - 1;
+  }
+
+  bool run_together(const Relation& relation, const GroupState& now) const {
+    if (now.instances.size() < 2) return false;
+    const auto& rest = std::get<Translation>(relation.detail);
+    const Corners& first = shape_.parts[relation.parts[0]].hexahedron.corners;
+    if (room(rest.start, rest.end, relation.parts.size(), first) < least_room) return false;
+    return room(now.start, now.end, now.instances.size(), now.instances[0]) < 0;
   }
 
   const Shape& shape_;

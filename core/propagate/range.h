@@ -1,4 +1,4 @@
-// How far a layer's slider may go before a part turns inside out.
+// How far a layer's slider may go before a part turns inside out or a row runs into itself.
 #pragma once
 
 #include <string>
@@ -21,8 +21,9 @@ struct Range {
 };
 
 /// The widest [min, max] within ±limit on which, going outward from 0, no hexahedron of an active part or of an
-/// instance inverts or collapses (see collapse_ratio, at the corners of the cage), and every amount of the layer is
-/// defined and below largest_amount in size. The layers before it stand at their values, later ones are not applied.
+/// instance inverts or collapses (see collapse_ratio, at the corners of the cage), no instances of a row run into each
+/// other that stood apart at rest, and every amount of the layer is defined and below largest_amount in size. The
+/// layers before it stand at their values, later ones are not applied.
 ///
 /// `limit` > 0, usually tau; a layer whose seed is a rotation may deserve more, as its amount is an angle. Steps of
 /// limit/48 find the first failure, bisection its place to limit·1e-6; ends short of the limit are rounded towards 0 to

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/tolerance.h"
 #include "core/propagate/transfer.h"
@@ -14,6 +15,8 @@ namespace {
 constexpr double perfect = 1e-6;
 /// Energies within this factor count as equal.
 constexpr double similar_energy = 1.05;
+/// Errors within this factor count as equal where nothing fits exactly.
+constexpr double similar_error = 1.25;
 
 /// A candidate, or a pair of them, that fits the constraints.
 struct Survivor {
@@ -183,11 +186,22 @@ class Search {
     }
   }
 
+  /// Where nothing fits exactly, what misses by little more than the best fit; the others are wrong operators.
+  void keep_nearest(std::vector<Survivor>& survivors) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Survivor& s : survivors) least = std::min(least, s.fit.error);
+    const double allowed = std::max(scene_.options.exact, similar_error * least);
+    survivors.erase(std::remove_if(survivors.begin(), survivors.end(),
+                                   [allowed](const Survivor& s) { return s.fit.error > allowed; }),
+                    survivors.end());
+  }
+
   bool choose(std::vector<Survivor>& survivors, double tolerance, WhyKind kind) {
     trace_.survivors += static_cast<int>(survivors.size());
     survivors.erase(std::remove_if(survivors.begin(), survivors.end(),
                                    [](const Survivor& s) { return s.rank.energy > largest_energy; }),
                     survivors.end());
+    if (tolerance > scene_.options.exact) keep_nearest(survivors);
     sort(survivors);
     AmountSolver solver(constraints_, scene_.edits, scene_.goals, scene_.parameter, scene_.at);
     for (std::size_t i = 0; i < survivors.size(); ++i) {

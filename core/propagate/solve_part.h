@@ -13,7 +13,8 @@
 //    7. everything within delta_one_edited, then delta_both_edited
 //    8. breaking: fewest relations lost
 // Exact before slack: a wrong operator that errs by less than delta would otherwise win on deformation energy (2 % off
-// on 8 of 10 known shapes; 0.2 % so). But a part is deformed only where moving it leaves more than a part may be off:
+// on 8 of 10 known shapes; 0.2 % so). For the same reason only what misses by little more than the best fit is ranked
+// where nothing fits exactly. But a part is deformed only where moving it leaves more than a part may be off:
 // else the pole of a lamp is thickened with its shade, or a post with the bench that it is bolted to. Pairs of
 // operators on one part go beyond the paper: a chair's back whose seat is widened and raised at once, or a table's
 // apron between two legs that move by different amounts.

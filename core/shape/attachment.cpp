@@ -123,6 +123,9 @@ Vec3 snapped_local(const Box& box, const Vec3& point) {
 }
 
 constexpr double parallel = 0.985;  ///< cos 10°
+/// A region that covers this share of both boxes along an axis ties its ends, symmetric or not; cushions lean.
+constexpr double covering = 0.5;
+constexpr double leaning = 0.866;  ///< cos 30°
 /// Points closer than this would be one point twice.
 constexpr double distinct = 2e-3;
 
@@ -179,12 +182,16 @@ FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRe
   } else {
     PARSEL_ASSERT(!region.empty(), "parts that meet have a region");
     along = extents(region, frame);
+    const std::array<Interval, 3> along_other = extents(region, other);
     const std::array<bool, 3> own = symmetric_axes(region, frame), others = symmetric_axes(region, other);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
-        if (std::abs(frame.axes.row(i).dot(other.axes.row(j))) < parallel) continue;
-        const auto axis = static_cast<std::size_t>(i);
-        if (own[axis] && others[static_cast<std::size_t>(j)] && along[axis].half() > distinct / 2) shared[axis] = true;
+        const auto axis = static_cast<std::size_t>(i), theirs = static_cast<std::size_t>(j);
+        const double alike = std::abs(frame.axes.row(i).dot(other.axes.row(j)));
+        const bool symmetric = alike > parallel && own[axis] && others[theirs];
+        const bool covers = alike > leaning && along[axis].half() > covering * frame.half[i] &&
+                            along_other[theirs].half() > covering * other.half[j];
+        if ((symmetric || covers) && along[axis].half() > distinct / 2) shared[axis] = true;
       }
     }
   }

@@ -8,13 +8,12 @@
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { gzipSync } from 'node:zlib';
 import type { Page } from 'playwright-core';
 import { expect, it } from 'vitest';
 import type { Program, Shape, Statement } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { stoolGltf, toGlb } from '../e2e/fixture';
-import { dist, openModel, openPage, useSite } from '../e2e/harness';
+import { openModel, openPage, useSite } from '../e2e/harness';
 
 declare const parsel: DebugHandle;
 
@@ -25,13 +24,6 @@ const viewport = { width: 640, height: 400 };
 const print = (name: string, metric: string, value: number, digits = 3) =>
   process.stdout.write(`page,${name},${metric},${value.toFixed(digits)}\n`);
 const median = (values: readonly number[]) => [...values].sort((a, b) => a - b)[values.length >> 1] ?? Number.NaN;
-
-it('what a visitor downloads before anything shows', () => {
-  const html = readFileSync(join(dist, 'index.html'), 'utf8');
-  const scripts = [...html.matchAll(/(?:src|href)="\.\/(assets\/[^"]+\.js)"/g)].map(([, path]) => path as string);
-  const sizes = scripts.map((path) => gzipSync(readFileSync(join(dist, path))).length);
-  print('initial JavaScript', 'kB_gzip', sizes.reduce((sum, size) => sum + size, 0) / 1000, 1);
-});
 
 it('a cold start to a moving slider', async () => {
   const times: number[] = [];

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,27 @@ TEST_CASE("points lie at the ends of the region, exactly on the parts' own faces
   CHECK(line.local_a[1][0] == 1);
   CHECK(line.local_b[0][0] == -1);
   CHECK(line.local_b[1] == Vec3(1, -1, 0));
+}
+
+TEST_CASE("what covers half of both boxes is tied at its ends, however lopsided it is") {
+  // The bath stands out of its panelling to one side, by a fifth of its length, and leans.
+  const auto inset = [](double length, double angle) {
+    const auto bath = fixture::turned(box({0.15, 0.1, 0}, {length, 0.5, 0.4}), {0.15, 0.1, 0}, Vec3::UnitZ(), angle);
+    return fixture::shape({{"panelling", box({0, 0, 0}, {1, 0.5, 0.5})}, {"bath", bath}});
+  };
+  CHECK(attached(inset(1, 0), "panelling", "bath") == "volume");
+  CHECK(attached(inset(1, 0.3), "panelling", "bath") == "volume");
+  const Shape covered = inset(1, 0);
+  const Attachment& ends = std::get<Attachment>(attachment(covered, "panelling", "bath").detail);
+  double low = 1, high = -1;
+  for (const Vec3& local : ends.local_a) {
+    low = std::min(low, local.x());
+    high = std::max(high, local.x());
+  }
+  CHECK(low == doctest::Approx(-0.7));
+  CHECK(high == 1);
+  // A third of the panelling is not half of it: along its length the bath is tied at its middle alone.
+  CHECK(attached(inset(0.3, 0), "panelling", "bath") == "face");
 }
 
 TEST_CASE("parts that touch at an edge are attached, parts that are apart are not") {

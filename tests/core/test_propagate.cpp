@@ -270,6 +270,28 @@ TEST_CASE("a part that cannot follow two neighbours follows one, and the other r
   CHECK(any_broken);
 }
 
+TEST_CASE("handles one above the other go with their door, though they are mirror images") {
+  test::BoxShape s;
+  const PartIndex door = s.box("door", {0, 0, 0}, {0.4, 0.5, 0.02});
+  const PartIndex upper = s.box("handle_upper", {0.3, 0.25, 0.04}, {0.02, 0.05, 0.02});
+  const PartIndex lower = s.box("handle_lower", {0.3, -0.25, 0.04}, {0.02, 0.05, 0.02});
+  s.attach(door, upper, {{0.3, 0.25, 0.02}});
+  s.attach(door, lower, {{0.3, -0.25, 0.02}});
+  s.reflect(upper, lower, 1);
+  // From its foot: the upper handle rises three times as far as the lower one, which no mirror image does.
+  const Propagation found = run(s.shape(), {{"seed",
+                                             {{{"op", "scale_1d"},
+                                               {"part", "door"},
+                                               {"origin", {{"part", "door"}, {"at", {0, -1, 0}}}},
+                                               {"direction", {0, 1, 0}},
+                                               {"amount", "x"}}}}});
+  const State state = Evaluator(found.program, s.shape())({0.2});
+  for (const auto& [part, rise] : {std::pair{upper, 0.15}, std::pair{lower, 0.05}}) {
+    const Corners moved = state.parts[part] - s.shape().parts[part].hexahedron.corners;
+    CHECK((moved.rowwise() - Vec3(0, rise, 0).transpose()).cwiseAbs().maxCoeff() < 1e-9);
+  }
+}
+
 TEST_CASE("chains through rotations have closed forms") {
   // A lever pinned at its lower end to a block that stays, at its upper end to a slider that moves along x.
   test::BoxShape s;

@@ -67,3 +67,26 @@ TEST_CASE("instances of a group are looked at too, and a shape that fails at onc
   CHECK(none.max == 0);
   CHECK(none.max_reason == "rail would collapse");
 }
+
+TEST_CASE("a slider stops where a row that had room runs into itself") {
+  const Shape shape = hand::slats();
+  const RelationIndex t1 = *shape.find_relation("t1");
+  const Translation& row = std::get<Translation>(shape.relations[t1].detail);
+  const Corners& slat = shape.parts[shape.relations[t1].parts[0]].hexahedron.corners;
+  const double thickness = slat.col(0).maxCoeff() - slat.col(0).minCoeff();
+  const double extent = (row.end - row.start).norm();
+  REQUIRE(extent / 2 > 1.1 * thickness);
+
+  const auto of_group = [&](Op op, const std::string& amount, Anchor anchor) {
+    return find_range(shape, hand::program(shape, {hand::group_statement(op, "t1", amount, anchor)}), 0, 1);
+  };
+  const Range closer = of_group(Op::change_delta, "x1", Anchor::middle);
+  CHECK(closer.min == doctest::Approx(thickness / (extent / 2) - 1).epsilon(1e-3));
+  CHECK(closer.min_reason.find("would run into each other") != std::string::npos);
+  CHECK(closer.max == 1);
+  // n slats fit while (n - 1) thicknesses do.
+  const Range more = of_group(Op::change_count, "100*x1", Anchor::fit);
+  const double most = std::floor(extent / thickness + 1e-9) + 1;
+  CHECK(more.max == doctest::Approx((most + 1 - 3) / 100).epsilon(1e-2));
+  CHECK(more.max_reason == closer.min_reason);
+}
