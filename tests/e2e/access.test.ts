@@ -67,7 +67,13 @@ describe.each([
           await page.keyboard.press('e');
         },
       ],
-      ['tour', async () => page.getByRole('button', { name: 'Show me around' }).click()],
+      [
+        'tour',
+        async () => {
+          await page.getByRole('button', { name: 'View and help' }).click();
+          await page.getByRole('menuitem', { name: 'Tour' }).click();
+        },
+      ],
       ['export', async () => page.getByRole('button', { name: 'Export' }).click()],
       ['open', async () => page.locator('.bar .model').click()],
       ['share', async () => page.getByRole('button', { name: 'Share' }).click()],

@@ -10,6 +10,7 @@ import { createRequire } from 'node:module';
 import { basename, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { causeOf, explain, severity } from './causes.mjs';
+import { escaped, pageOf, table } from './html.mjs';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const [folder, models, ...options] = process.argv.slice(2);
@@ -188,15 +189,8 @@ async function takePictures(program) {
 
 // --------------------------------------------------------------------------------------------------------------- page
 
-const escaped = (text) =>
-  String(text).replace(/[&<>"']/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;', "'": '&#39;' })[c]);
 const number = (value, digits = 0) => value.toLocaleString('en', { maximumFractionDigits: digits });
 const percent = (part, whole) => (whole === 0 ? '–' : `${((100 * part) / whole).toFixed(1)} %`);
-const cell = (value) => `<td>${escaped(value)}</td>`;
-const table = (head, rows) =>
-  `<table><thead><tr>${head.map((h) => `<th>${escaped(h)}</th>`).join('')}</tr></thead><tbody>${rows
-    .map((row) => `<tr>${row.map(cell).join('')}</tr>`)
-    .join('')}</tbody></table>`;
 const totalsTable = (first, entries) =>
   table(
     [
@@ -236,14 +230,6 @@ ${
         .join('')
     : `<p>no picture: ${escaped(edit.no_picture ?? 'there is no program')}</p>`
 }</figure>`;
-
-const style = `body{font:14px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:1180px;padding:0 1rem;color-scheme:light dark;
-color:light-dark(#222,#ddd);background:light-dark(#fff,#17181a)}table{border-collapse:collapse;margin:0 0 1.5rem}
-th,td{padding:.2rem .7rem .2rem 0;text-align:right;border-bottom:1px solid #8884;font-variant-numeric:tabular-nums}
-th:first-child,td:first-child,:is(th,td):nth-child(4):last-child{text-align:left}.wide{overflow-x:auto}figure{margin:0 0 1.2rem}
-figure img{width:33%;background:light-dark(#f1f1ef,#232527);border-radius:4px}figcaption{margin-bottom:.3rem;overflow-wrap:anywhere}`;
-const pageOf = (title, body) =>
-  `<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>${escaped(title)}</title><style>${style}</style><h1>${escaped(title)}</h1>${body}</html>`;
 
 async function writeSheets(browser, list) {
   mkdirSync(sheetFolder, { recursive: true });

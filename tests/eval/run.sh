@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Evaluates the core on real models and writes a report with pictures.
 #   tests/eval/run.sh [FOLDER] [EDITS.json]
-# FOLDER: GLBs with named parts; without it, Debian's furniture (see furniture.sh; 120 MB from Debian's servers) and, when
-# there is one, $PARSEL_DATA/furniture. EDITS.json: {"model": [{"name", "edit": parsel/edit}]}; models that it does not
+# FOLDER: GLBs with named parts; without it, Debian's furniture (see furniture.sh; 120 MB from Debian's servers), when
+# there is one $PARSEL_DATA/furniture, the recorded replies (requests.mjs), and a page of all figures of the README
+# (figures.mjs; --readme there puts them into it). EDITS.json: {"model": [{"name", "edit": parsel/edit}]}; models that it does not
 # name get automatic edits (seeds.h). Reports: tests/output/eval/NAME/report.html and report.json; the two ends of the 20
 # worst edits as GLBs beside them.
 # The page must be built for the pictures: this builds it when web/dist is missing.
@@ -36,4 +37,7 @@ else
   models=$("$root/tests/eval/furniture.sh" | tail -n 1)
   evaluate debian "$models"
   if [ -d "${PARSEL_DATA:-/nowhere}/furniture" ]; then evaluate furniture "$PARSEL_DATA/furniture"; fi
+  say "Measuring the recorded replies"
+  node "$root/tests/eval/requests.mjs" --json "$root/tests/output/eval/requests.json"
+  node "$root/tests/eval/figures.mjs" "$root/tests/output/eval"
 fi

@@ -32,9 +32,13 @@ export function startTour(): void {
   step.value = 0;
 }
 
-/** At the first visit, once there is a model: a line that asks, and never asks again. */
+/**
+ * At the first visit, once there is a model: a line that asks, and never asks again. Whoever has added an edit to the one
+ * that the visit begins with has found the way, and wants to see the model.
+ */
 export function TourOffer() {
-  if (offered.value || step.value !== null || document.value.model === null) return null;
+  const { model, layers } = document.value;
+  if (offered.value || step.value !== null || model === null || layers.length > 1) return null;
   return (
     <section class="panel note tour-offer" aria-label="Tour">
       <span>New here?</span>
