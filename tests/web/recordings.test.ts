@@ -10,6 +10,7 @@ import {
   readRequests,
   renderRequests,
 } from '../../web/tools/prompts.mjs';
+import { readReplies, variantPrompts, variants } from '../eval/variants.mjs';
 import { loadModule } from './module';
 
 type Core = Parameters<typeof renderRequests>[0];
@@ -51,6 +52,26 @@ describe('the recorded requests', () => {
       }
       expect(inference.seed.outcome, `${model}: ${request}`).toBe('decided');
       expect(() => core('propagate', { edit: inference.edit }), `${model}: ${request}`).not.toThrow();
+    }
+  });
+});
+
+describe.each(variants)('the variant %s that is measured', (variant) => {
+  it('has a reply to each of its prompts, and none to a prompt of yesterday', () => {
+    const prompts = renderRequests(core, readRequests()).flatMap((rendered) =>
+      variantPrompts(variant, rendered.prompts),
+    );
+    const { replies } = readReplies(variant);
+    expect(new Set(Object.keys(replies))).toEqual(new Set(prompts.map(({ hash }) => hash)));
+  });
+
+  it('says the same as the page, but for what it leaves out', () => {
+    const [rendered] = renderRequests(core, readRequests());
+    for (const prompt of variantPrompts(variant, rendered?.prompts ?? [])) {
+      expect(prompt.text).toContain('"widen the chair"');
+      expect(prompt.text).toContain('leg_front_left');
+      expect(prompt.text.includes('# Worked examples')).toBe(!['no_examples', 'naive'].includes(variant));
+      expect(/think first/i.test(prompt.text)).toBe(!['no_thinking', 'naive'].includes(variant));
     }
   });
 });

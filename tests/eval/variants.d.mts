@@ -1,0 +1,12 @@
+import type { Prompt } from '../../web/src/worker/protocol';
+
+export const variants: readonly string[];
+export function variantPrompts(
+  variant: string,
+  prompts: readonly Prompt[],
+): readonly Pick<Prompt, 'task' | 'relation' | 'text' | 'hash'>[];
+export function readReplies(variant: string): {
+  readonly model: string | null;
+  readonly date: string | null;
+  readonly replies: Readonly<Record<string, string>>;
+};
