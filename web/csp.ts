@@ -1,5 +1,5 @@
 // The page's Content-Security-Policy: one text for the built page, the dev and preview servers, and the tests.
-import { allowedOrigins } from './src/llm/providers';
+import { allowedOrigins } from './src/llm/providers.ts';
 
 /** @param development Vite's hot reload talks to its server over a web socket. */
 export function contentSecurityPolicy(development: boolean): string {

@@ -1,5 +1,6 @@
 // Pictures of the gallery, drawn here one after the other when the gallery is first looked at, and kept.
 import { signal } from '@preact/signals';
+import { loadModel } from '../scene/load';
 import { modelOf, readUrl } from '../session/files';
 import { galleryUrl } from '../session/gallery';
 
@@ -17,10 +18,7 @@ export function thumbnails(ids: readonly string[]): () => void {
 
 async function draw(ids: readonly string[], abort: AbortSignal): Promise<void> {
   if (ids.length === 0) return;
-  const [{ loadModel }, { ThumbnailPainter }] = await Promise.all([
-    import('../scene/load'),
-    import('../scene/thumbnail'),
-  ]);
+  const { ThumbnailPainter } = await import('../scene/thumbnail');
   const painter = new ThumbnailPainter(320, 240);
   try {
     for (const id of ids) {
