@@ -182,13 +182,16 @@ class TraceChecker {
     return result;
   }
 
-  using Urgency = std::pair<bool, int>;  ///< a broken symmetry, number of broken relations
+  /// A broken symmetry that is none of one above the other, number of broken relations.
+  using Urgency = std::pair<bool, int>;
 
   Urgency urgency(const std::string& part, const Deviations& deviations, double threshold) const {
     Urgency result{false, 0};
     for (const Relation* relation : edited_relations(part)) {
       if (deviations.at(relation->id) <= threshold) continue;
-      result.first = result.first || relation->is_symmetry();
+      const auto* mirror = std::get_if<Reflection>(&relation->detail);
+      const bool is_stacked = mirror != nullptr && mirror->normal.y() * mirror->normal.y() > 0.5;
+      result.first = result.first || (relation->is_symmetry() && !is_stacked);
       ++result.second;
     }
     return result;

@@ -18,11 +18,28 @@ constexpr double least_range = 0.02;
 /// clock: the same input must give the same program everywhere.
 constexpr int revision_cost = 100'000;
 constexpr int most_revision_runs = 40;
+/// A part that follows an edit at the ends of a slider and changes an edge by more than this factor is distorted.
+constexpr double largest_stretch = 2.5;
 
 Motion still() {
   Motion motion;
   motion.fill(Corners::Zero());
   return motion;
+}
+
+/// By how much the edge that changes most has become longer, or shorter, as a factor of at least 1.
+double stretch(const Corners& rest, const Corners& deformed) {
+  double most = 1;
+  for (int k = 0; k < 8; ++k) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int other = k ^ (1 << axis);
+      if (other < k) continue;
+      const double before = (rest.row(other) - rest.row(k)).norm(),
+                   after = (deformed.row(other) - deformed.row(k)).norm();
+      most = std::max({most, after / before, before / std::max(after, noise)});
+    }
+  }
+  return most;
 }
 
 bool is_alive(const Corners& corners, const Corners& rest) {
@@ -85,6 +102,28 @@ class Loop {
     return broken;
   }
 
+  /// Parts that the search stretches or squeezes beyond what anyone would want, though it keeps their relations: a
+  /// bed's legs that grow five times as thick.
+  std::vector<PartIndex> distorted_parts() const {
+    std::vector<PartIndex> distorted;
+    for (const PartIndex part : graph_.parts()) {
+      if (!edits_[part] || is_seed(part)) continue;
+      const std::vector<Step>& steps = edits_[part]->steps;
+      // A row that spreads keeps its instances as they are.
+      if (std::any_of(steps.begin(), steps.end(), [](const Step& step) { return !is_geometric(step.what.op); }))
+        continue;
+      const Corners& rest = shape_.parts[part].hexahedron.corners;
+      const auto& motion = edits_[part]->motion;
+      if (std::max(stretch(rest, rest + motion.front()), stretch(rest, rest + motion.back())) > largest_stretch)
+        distorted.push_back(part);
+    }
+    return distorted;
+  }
+
+  /// What a second look tries to lessen: broken relations first, then distorted parts.
+  using Faults = std::pair<std::size_t, std::size_t>;
+  Faults faults() const { return {broken_relations().size(), distorted_parts().size()}; }
+
   /// How much work the search was, about 1000 a millisecond.
   int cost() const {
     int cost = 1;
@@ -94,11 +133,12 @@ class Loop {
   }
 
   /// Hints that might have served better: for the parts that the search edited by itself, up to two relations away from
-  /// a broken one, to be stretched where they were moved, and the other way round.
+  /// a fault, to be stretched where they were moved, and the other way round.
   std::vector<std::pair<PartIndex, Hint>> possible_revisions() const {
     std::set<PartIndex> near;
     for (const RelationIndex relation : broken_relations())
       near.insert(shape_.relations[relation].parts.begin(), shape_.relations[relation].parts.end());
+    for (const PartIndex part : distorted_parts()) near.insert(part);
     for (const PartIndex part : std::set<PartIndex>(near)) {
       for (const RelationIndex relation : graph_.relations(part)) near.insert(graph_.other(relation, part));
     }
@@ -106,8 +146,7 @@ class Loop {
     for (const PartIndex part : graph_.parts()) {
       if (!edits_[part] || near.count(part) == 0 || request_.hints.count(part) > 0 || revisions_.count(part) > 0)
         continue;
-      if (std::find(request_.seed_parts.begin(), request_.seed_parts.end(), part) != request_.seed_parts.end())
-        continue;
+      if (is_seed(part)) continue;
       const auto uses = [&](Op op) {
         const std::vector<Step>& steps = edits_[part]->steps;
         return std::any_of(steps.begin(), steps.end(), [op](const Step& step) { return step.what.op == op; });
@@ -150,6 +189,9 @@ class Loop {
   }
 
  private:
+  bool is_seed(PartIndex part) const {
+    return std::find(request_.seed_parts.begin(), request_.seed_parts.end(), part) != request_.seed_parts.end();
+  }
   const std::string& id(PartIndex part) const { return shape_.parts[part].id; }
   const std::string& id(RelationIndex relation) const { return shape_.relations[relation].id; }
 
@@ -320,7 +362,7 @@ class Loop {
       std::pair<bool, int> broken{false, 0};
       for (const auto& [relation, by] : residuals(pulls_[part], still())) {
         if (by <= exact) continue;
-        broken.first = broken.first || shape_.relations[relation].is_symmetry();
+        broken.first = broken.first || is_side_by_side(relation);
         ++broken.second;
       }
       if (broken.second == 0) continue;
@@ -330,6 +372,13 @@ class Loop {
       }
     }
     return best;
+  }
+
+  /// A symmetry, but for mirror images one above the other: what stands on the floor grows away from it, and its upper
+  /// half is seldom asked to do the opposite of the lower one.
+  bool is_side_by_side(RelationIndex relation) const {
+    const auto* mirror = std::get_if<Reflection>(&shape_.relations[relation].detail);
+    return shape_.relations[relation].is_symmetry() && !(mirror != nullptr && std::abs(mirror->normal.y()) > 0.5);
   }
 
   void edit_part(PartIndex part) {
@@ -496,7 +545,7 @@ class Loop {
   Trace trace_;
 };
 
-/// The revisions with which fewest relations break, found greedily. The search takes one part after the other and never
+/// The revisions with the fewest faults, found greedily. The search takes one part after the other and never
 /// looks back; a part that it moved with its first edited neighbour often must stretch once the neighbour at its other
 /// end is known.
 Revisions find_revisions(const Shape& shape, const ResolvedRequest& request, const PropagateOptions& options,
@@ -504,10 +553,10 @@ Revisions find_revisions(const Shape& shape, const ResolvedRequest& request, con
   int budget = std::min(revision_cost / first.cost(), most_revision_runs);
   const Progress silent;
   Revisions chosen;
-  std::size_t fewest = first.broken_relations().size();
+  Loop::Faults fewest = first.faults();
   auto possible = first.possible_revisions();
   const int total = budget;
-  while (fewest > 0 && budget > 0) {
+  while (fewest > Loop::Faults{} && budget > 0) {
     std::optional<Revisions> better;
     std::vector<std::pair<PartIndex, Hint>> next;
     for (const auto& [part, hint] : possible) {
@@ -517,9 +566,9 @@ Revisions find_revisions(const Shape& shape, const ResolvedRequest& request, con
       tried[part] = hint;
       Loop loop(shape, request, tried, options, silent);
       if (!loop.search().ok()) continue;
-      const std::size_t broken = loop.broken_relations().size();
-      if (broken >= fewest) continue;
-      fewest = broken;
+      const Loop::Faults faults = loop.faults();
+      if (faults >= fewest) continue;
+      fewest = faults;
       better = std::move(tried);
       next = loop.possible_revisions();
     }
@@ -540,16 +589,19 @@ Result<Propagation> propagate(const Shape& shape, const EditRequest& request, co
   Loop first(shape, *resolved, none, options, progress);
   if (const Status found = first.search(); !found.ok()) return found.error();
   if (!options.revisions) return first.finish();
-  const std::size_t broken = first.broken_relations().size();
-  const Revisions revisions = broken == 0 ? none : find_revisions(shape, *resolved, options, first, progress);
+  const Revisions revisions =
+      first.faults() == Loop::Faults{} ? none : find_revisions(shape, *resolved, options, first, progress);
   if (revisions.empty()) return first.finish();
   Loop second(shape, *resolved, revisions, options, progress);
   if (const Status found = second.search(); !found.ok()) return found.error();
-  const std::size_t kept = broken - second.broken_relations().size();
+  const Loop::Faults before = first.faults(), after = second.faults();
+  const std::string gain = before.first > after.first
+                               ? std::to_string(before.first - after.first) + " more relations are kept"
+                               : std::to_string(before.second - after.second) + " fewer parts are distorted";
   Propagation result = second.finish();
   for (const auto& [part, hint] : revisions) {
     result.trace.notes.push_back("a second look: " + shape.parts[part].id + " takes a " + std::string(to_string(hint)) +
-                                 ", so that " + std::to_string(kept) + " more relations are kept");
+                                 ", so that " + gain);
   }
   return result;
 }

@@ -1,16 +1,22 @@
 // Analytical edit propagation: from seed edits to a whole editing program. ParSEL §5, supplement §4, algorithm 2.
 //
 // The loop: apply the seed edits; as long as a relation between an edited and an unedited part is broken, take the part
-// with the most of them (ties by id), find its edit and add it. Symmetry first: the mirror image of a mirrored
-// neighbour's edit, if that keeps all relations to edited parts; then attachments, by solve_part(). Where neither keeps
-// all, what breaks fewer is taken, and of equals what keeps the joints: two handles, one above the other, that are
-// mirror images go up with their door rather than apart from it. (The mirror image first, as the paper has it, tears 46
-// more of 2288 edits of furniture visibly, with gaps of 60 instead of 38 half-diagonals in all.) A relation that an
-// edit leaves broken is recorded and not chased.
+// with the most of them (ties by id; parts with a broken symmetry come first, unless it is of one above the other),
+// find its edit and add it. Symmetry first: the mirror image of a mirrored neighbour's edit, if that keeps all
+// relations to edited parts; then attachments, by solve_part(). Where neither keeps all, what breaks fewer is taken,
+// and of equals what keeps the joints: two handles, one above the other, that are mirror images go up with their door
+// rather than apart from it. A relation that an edit leaves broken is recorded and not chased.
 //
-// A second look, beyond the paper: when relations stay broken, single parts near them are made to stretch where they
-// were moved, or the other way round, and the whole is searched again; what breaks fewest is kept. The paper's loop
-// never looks back, so that the side of a bed that was moved with its foot end tears off the head end.
+// A second look, beyond the paper: when relations stay broken, or parts are kept in them by being distorted, single
+// parts near them are made to stretch where they were moved, or the other way round, and the whole is searched again;
+// what breaks fewest, then distorts fewest, is kept. The paper's loop never looks back, so that the side of a bed that
+// was moved with its foot end tears off the head end, or its legs grow five times as thick to reach a panel that could
+// be wider.
+//
+// What the departures from the paper are worth, on 2288 edits of 537 models of furniture: with mirror images first
+// wherever they can be, parts that touched come apart by 60 half-diagonals in all; with joints first among equals by
+// 38; with parts taken and distorted parts looked at as said above by 32, and 99.0 instead of 98.6 % of the relations
+// are held.
 //
 // Groups. The virtual parent of a translation or rotation group stands for its instances, until a seed on one of them,
 // or "disabled", dissolves the group. Its extent follows its neighbours like that of any part; where it must spread

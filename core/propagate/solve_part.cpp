@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 
 #include "core/base/tolerance.h"
@@ -255,12 +256,19 @@ class Search {
     steps.push_back(std::move(count));
   }
 
+  /// What an edit breaks. Of edits that lose as many relations the one that keeps joints, rather than symmetries, is
+  /// better, then the more exact one.
+  struct Lost {
+    int relations = 0, joints = 0, inexact = 0;
+    auto operator<=>(const Lost&) const = default;
+  };
+
   /// Minimally breaking edit (ParSEL §5.3.1): every relation alone proposes amounts; fewest relations lost wins.
   bool attempt_breaking() {
     struct Proposal {
       Survivor survivor;
       std::size_t proposer = 0;
-      int lost = 0, inexact = 0;
+      int lost = 0;
     };
     std::vector<std::vector<PointConstraint>> groups;
     for (const PointConstraint& constraint : constraints_) {
@@ -270,11 +278,13 @@ class Search {
     std::vector<Rows> rows;
     for (const auto& group : groups) rows.emplace_back(group);
     const auto lost_by = [&](const auto& misses_of) {
-      std::pair<int, int> lost;
+      Lost lost;
       for (std::size_t g = 0; g < groups.size(); ++g) {
         const double by = misses_of(g);
-        lost.first += by > scene_.options.both_edited;
-        lost.second += by > scene_.options.exact;
+        const bool broken = by > scene_.options.both_edited;
+        lost.relations += broken;
+        lost.joints += broken && shape_.relations[groups[g].front().relation].is_attachment();
+        lost.inexact += by > scene_.options.exact;
       }
       return lost;
     };
@@ -282,7 +292,7 @@ class Search {
     still.fill(Corners::Zero());
     const auto at_rest = lost_by([&](std::size_t g) { return residuals(groups[g], still)[0].second; });
     std::vector<Proposal> best;
-    std::pair<int, int> fewest = at_rest;
+    Lost fewest = at_rest;
     for (const std::vector<Candidate>* list : {&own_, &neighbour_}) {
       for (const Candidate& candidate : *list) {
         for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -291,10 +301,10 @@ class Search {
           ++trace_.survivors;
           const auto lost =
               lost_by([&](std::size_t other) { return missed_by(candidate, found->amount, rows[other]); });
-          if (lost > fewest || lost.first >= at_rest.first) continue;
+          if (lost > fewest || lost.relations >= at_rest.relations) continue;
           if (lost < fewest) best.clear();
           fewest = lost;
-          best.push_back({{&candidate, nullptr, *found, {}}, g, lost.first, lost.second});
+          best.push_back({{&candidate, nullptr, *found, {}}, g, lost.relations});
         }
       }
     }

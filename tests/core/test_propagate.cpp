@@ -292,6 +292,37 @@ TEST_CASE("handles one above the other go with their door, though they are mirro
   }
 }
 
+TEST_CASE("a second look stretches a panel rather than the legs beside it out of shape") {
+  test::BoxShape s;
+  const PartIndex top = s.box("top", {0, 0.5, 0}, {0.5, 0.03, 0.03});
+  const PartIndex left = s.box("leg_left", {0.44, 0.02, 0}, {0.06, 0.45, 0.03});
+  const PartIndex right = s.box("leg_right", {-0.44, 0.02, 0}, {0.06, 0.45, 0.03});
+  const PartIndex back = s.box("back", {0, 0.02, 0}, {0.38, 0.45, 0.01});  // its id comes before the legs'
+  s.attach(top, left, {{0.44, 0.47, 0}});
+  s.attach(top, right, {{-0.44, 0.47, 0}});
+  s.attach(top, back, {{0.03, 0.47, 0}});
+  s.attach(back, left, {{0.38, 0.02, 0}});
+  s.attach(back, right, {{-0.38, 0.02, 0}});
+  json widen = scale_seat();
+  widen["part"] = widen["origin"]["part"] = "top";
+  const auto width = [&](const Propagation& found, PartIndex part) {
+    const State state = Evaluator(found.program, s.shape())({found.program.layers[0].parameter.max});
+    return state.parts[part].col(0).maxCoeff() - state.parts[part].col(0).minCoeff();
+  };
+  PropagateOptions once;
+  once.revisions = false;
+  CHECK(width(run(s.shape(), {{"seed", {widen}}}, once), left) > 0.3);
+  const Propagation found = run(s.shape(), {{"seed", {widen}}});
+  CHECK(width(found, left) == doctest::Approx(0.12));
+  CHECK(width(found, right) == doctest::Approx(0.12));
+  CHECK(width(found, back) > 1);
+  REQUIRE(!found.trace.notes.empty());
+  CHECK(found.trace.notes.back().find("fewer parts are distorted") != std::string::npos);
+  for (const RelationReport& report : found.program.layers[0].relations) {
+    CHECK(report.status == RelationStatus::held);
+  }
+}
+
 TEST_CASE("chains through rotations have closed forms") {
   // A lever pinned at its lower end to a block that stays, at its upper end to a slider that moves along x.
   test::BoxShape s;
