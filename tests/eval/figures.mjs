@@ -35,9 +35,7 @@ function bench(benchmark, name, metric, digits = 2, scale = 1) {
   return significant(Number(found.value) * scale, digits);
 }
 const significant = (value, digits = 2) =>
-  value === 0
-    ? '0'
-    : Number(value.toPrecision(Math.max(digits, Math.ceil(Math.log10(Math.abs(value)))))).toLocaleString('en');
+  Number(value.toPrecision(digits)).toLocaleString('en', { maximumFractionDigits: 6 });
 
 // --------------------------------------------------------------------------------------------------------- tables
 
