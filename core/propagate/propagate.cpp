@@ -600,8 +600,9 @@ Result<Propagation> propagate(const Shape& shape, const EditRequest& request, co
                                : std::to_string(before.second - after.second) + " fewer parts are distorted";
   Propagation result = second.finish();
   for (const auto& [part, hint] : revisions) {
-    result.trace.notes.push_back("a second look: " + shape.parts[part].id + " takes a " + std::string(to_string(hint)) +
-                                 ", so that " + gain);
+    result.trace.notes.push_back("a second look: " + shape.parts[part].id +
+                                 (hint == Hint::scale ? " is not moved, so that " : " is not stretched, so that ") +
+                                 gain);
   }
   return result;
 }

@@ -15,7 +15,7 @@ import { renderRequests } from '../../web/tools/prompts.mjs';
 import { loadModule } from '../web/module';
 import { type Behaviour, type ProviderServer, type ReceivedCall, startProviders } from '../web/provider_server';
 import { stool } from './fixture';
-import { launch, openModel, openPage, outputFolder, serve } from './harness';
+import { launch, openModel, openPage, outputFolder, pick, serve } from './harness';
 
 declare const parsel: DebugHandle;
 declare const axe: { run(): Promise<AxeResults> };
@@ -387,6 +387,25 @@ describe('what goes wrong', () => {
     await expect.poll(() => composer(page).getByText('Reading the request').count()).toBe(0);
     expect(await field(page).inputValue()).toBe('widen it');
     expect(await page.getByRole('button', { name: 'Do not mention seat' }).count()).toBe(1);
+    await page.context().close();
+  });
+
+  it('is forgotten with the model that it was about; what was typed stays', async () => {
+    const { page } = await ready('openai');
+    await done(page);
+    answering([{ unclear: 'colour is not geometry' }]);
+    await say(page, 'paint it red');
+    await composer(page)
+      .getByText(/unclear/)
+      .waitFor();
+    await pick(page, [{ name: 'second.glb', mimeType: 'model/gltf-binary', buffer: stool }]);
+    await expect.poll(() => page.evaluate(() => parsel.document().model?.files.name)).toBe('second');
+    expect(
+      await composer(page)
+        .getByText(/unclear/)
+        .count(),
+    ).toBe(0);
+    expect(await field(page).inputValue()).toBe('paint it red');
     await page.context().close();
   });
 

@@ -2,7 +2,7 @@
 // leave.
 import type { Page } from 'playwright-core';
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { Shape } from '../../web/src/program/types';
+import type { Layer, Shape, Statement } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
 import { openModel, useSite } from './harness';
@@ -47,6 +47,56 @@ describe('a slider', () => {
     await seatWidth().fill('wide');
     await seatWidth().press('Enter');
     expect(await seatWidth().getAttribute('aria-invalid')).toBe('true');
+    await page.getByText('Type a number, such as 40 cm.').waitFor();
+    await seatWidth().fill('999');
+    await seatWidth().press('Enter');
+    expect(await seatWidth().inputValue()).toBe('75 cm');
+    await page.getByText('The slider goes no further.').waitFor();
+    expect(complaints).toEqual([]);
+  });
+
+  it('tells moves and turns with their sign, and not what other edits do', async () => {
+    const [edits] = [program(shape)];
+    const layerOf = (request: string, name: string, statements: Statement[]) => ({
+      ...(edits.layers[0] as Layer),
+      request,
+      parameter: { name, min: -0.35, max: 0.35, value: 0 },
+      statements,
+      relations: [],
+    });
+    const origin = [0, 0, 0] as const;
+    await page.evaluate((all) => parsel.addProgram(all, 'test'), {
+      ...edits,
+      layers: [
+        layerOf('lift', 'y1', [
+          { op: 'translate', part: 'seat', feature: [0, 0, 0], direction: [0, 1, 0], amount: 'y1' },
+        ]),
+        layerOf('tilt', 'y2', [
+          { op: 'rotate', part: 'seat', feature: [0, 0, 0], origin, axis: [1, 0, 0], amount: 'y2' },
+        ]),
+      ],
+    });
+    const cards = page.locator('.card');
+    await cards.nth(4).waitFor();
+    const slider = (i: number) => cards.nth(i).getByRole('slider');
+    await slider(3).fill('0.35');
+    await slider(4).fill('-0.35');
+    const turned = page.getByLabel('seat turned, type a value');
+    expect(await turned.inputValue()).toBe('−20.1°');
+    expect(await slider(4).getAttribute('aria-valuetext')).toBe('seat turned 0° to −20.1°');
+    await turned.fill('10');
+    await turned.press('Enter');
+    expect(Number(await slider(4).inputValue())).toBeCloseTo(Math.PI / 18, 4);
+    await turned.fill('-5');
+    await turned.press('Enter');
+    expect(Number(await slider(4).inputValue())).toBeCloseTo(-Math.PI / 36, 4);
+    // The lift is told apart from the turn that follows it, and from the seat's width.
+    await slider(4).fill('0');
+    const lifted = await page.getByLabel('seat moved, type a value').inputValue();
+    await slider(0).fill('0.4');
+    expect(await page.getByLabel('seat moved, type a value').inputValue()).toBe(lifted);
+    await slider(3).fill('-0.35');
+    expect(await page.getByLabel('seat moved, type a value').inputValue()).toBe(`−${lifted}`);
     expect(complaints).toEqual([]);
   });
 
@@ -109,7 +159,7 @@ describe('undo and redo', () => {
       },
       () => card(2).getByRole('slider').fill('7.4'),
       () => command(0, 'Remove'),
-      () => page.getByRole('button', { name: /Show all/ }).click(),
+      () => page.getByRole('button', { name: 'Show the hidden one' }).click(),
     ];
     const states = [await state()];
     for (const act of actions) {

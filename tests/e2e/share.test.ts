@@ -67,6 +67,14 @@ describe('a link', () => {
     await fresh.page.context().close();
   });
 
+  it('that is damaged says so when the page is opened by it, beside the work that is shown instead', async () => {
+    const gallery = withGalleryOf(stool);
+    const { page: opened } = await openPage(site.browser, `${site.url}?debug#v1.q1YqSyzKTC5R`, {}, gallery);
+    await opened.locator('.part').first().waitFor();
+    await expect.poll(() => opened.getByRole('alert').textContent()).toMatch(/This link is damaged/);
+    await opened.context().close();
+  });
+
   it('as a viewer has sliders and nothing else', async () => {
     const text = await link();
     const viewer = await openLink(new URL(text).hash, '?embed&debug');

@@ -24,8 +24,8 @@ describe('a relation that an edit does not keep', () => {
   it('comes loose where it is off by more than the tolerance of one edited part', () => {
     const found = looseningOf(twoBoxes, layer([move('left', 'x1')]), joint);
     expect(found?.measure.read).toBeTypeOf('function');
-    // The distance moved is unsigned; the scan has steps of 0.3 / 96.
-    for (const at of [found?.below, found?.above]) {
+    // The distance moved has the slider's sign; the scan has steps of 0.3 / 96.
+    for (const at of [-(found?.below ?? 0), found?.above]) {
       expect(at).toBeGreaterThan(0.0144);
       expect(at).toBeLessThan(0.0144 + 0.3 / 96 + 1e-9);
     }

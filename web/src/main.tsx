@@ -1,5 +1,6 @@
 import { render } from 'preact';
 import { start } from './session/core';
+import { say } from './session/session';
 import { App } from './ui/App';
 import { exposeForDebugging } from './ui/debug';
 import { detectSupport, missingSupport } from './ui/support';
@@ -8,6 +9,11 @@ const root = document.getElementById('app');
 if (root === null) throw new Error('index.html has no #app');
 
 exposeForDebugging();
+// A piece that is loaded late is gone when the server has a newer version.
+addEventListener('vite:preloadError', (event) => {
+  event.preventDefault();
+  say('A part of the page is no longer there: it was updated meanwhile. Reload the page; your work is kept.', 'error');
+});
 const missing = missingSupport(detectSupport());
 if (missing === null) void start();
 render(

@@ -4,6 +4,7 @@ export interface OfferedRequest {
   readonly model: string;
   readonly request: string;
   readonly mentioned?: readonly string[];
+  readonly suggest?: boolean;
 }
 export type RenderedRequest = OfferedRequest & MethodResult<'prompts'>;
 export interface Recording {

@@ -7,7 +7,7 @@ import { root } from './core.mjs';
 const requestsFile = join(root, 'prompts', 'requests.json');
 const recordingsFolder = join(root, 'prompts', 'recordings');
 
-/** @returns [{model, request, mentioned}] */
+/** @returns [{model, request, mentioned, suggest}]; `suggest` false: answered when it is asked, but not offered */
 export function readRequests() {
   return existsSync(requestsFile) ? JSON.parse(readFileSync(requestsFile, 'utf8')) : [];
 }
@@ -39,19 +39,19 @@ export function writeReplies({ hash, task }, model, replies, date = new Date().t
 /**
  * Renders the prompts of requests.
  * @param core from loadCore()
- * @returns [{model, request, mentioned, prompts: [{task, relation, text, hash}], schemas}]
+ * @returns [{model, request, mentioned, suggest, prompts: [{task, relation, text, hash}], schemas}]
  */
 export function renderRequests(core, requests) {
   const { result, buffers } = core('gallery', {});
   let opened = null;
-  return requests.map(({ model, request, mentioned = [] }) => {
+  return requests.map(({ model, request, mentioned = [], suggest = true }) => {
     const index = result.models.findIndex(({ id }) => id === model);
     if (index < 0) throw new Error(`prompts/requests.json: the gallery has no model ${model}.`);
     // Under the name that the page opens it by, which may stand in the prompts.
     const name = result.models[index].file.replace(/\.glb$/, '');
     if (opened !== model) core('open', { name, external: [] }, [buffers[index]]);
     opened = model;
-    return { model, request, mentioned, ...core('prompts', { request, mentioned }).result };
+    return { model, request, mentioned, suggest, ...core('prompts', { request, mentioned }).result };
   });
 }
 

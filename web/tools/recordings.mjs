@@ -20,7 +20,7 @@ for (const { id } of core('gallery', {}).result.models) {
   writeFileSync(
     join(folder, `${id}.json`),
     JSON.stringify({
-      requests: own.map(({ request, mentioned }) => ({ request, mentioned })),
+      requests: own.map(({ request, mentioned, suggest }) => ({ request, mentioned, suggest })),
       replies: Object.fromEntries(used.map(({ hash, replies }) => [hash, replies.map(({ text }) => text)])),
       models: [...new Set(used.map((recording) => recording.model))],
     }),

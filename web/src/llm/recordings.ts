@@ -3,7 +3,10 @@
 import * as v from 'valibot';
 
 const recordingsSchema = v.object({
-  requests: v.array(v.object({ request: v.string(), mentioned: v.array(v.string()) })),
+  /** `suggest`: false for what is answered when it is asked, but is no example to follow. */
+  requests: v.array(
+    v.object({ request: v.string(), mentioned: v.array(v.string()), suggest: v.exactOptional(v.boolean()) }),
+  ),
   /** Texts of the replies, by vote, by hash of the prompt. */
   replies: v.record(v.string(), v.array(v.string())),
   /** Who answered. */

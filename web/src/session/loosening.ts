@@ -3,7 +3,7 @@ import { checkProgram } from '../program/check';
 import { compileProgram, type Evaluator } from '../program/compile';
 import { isGroup, type Layer, type Shape, type ShapeRelation } from '../program/types';
 import { emptyProgram } from './document';
-import { type Measure, measureOf, pointIn } from './measure';
+import { type Measure, measureOf, pointIn, readAt } from './measure';
 
 /** What is held is off by no more, normalised: the deltas of core/base/tolerance.h, with one and with both parts edited. */
 const slackOneEdited = 0.0144;
@@ -41,16 +41,16 @@ function search(shape: Shape, layer: Layer, relation: ShapeRelation): Loosening 
   );
   const slack = relation.parts.every((id) => edited.has(id)) ? slackBothEdited : slackOneEdited;
   const { min, max } = layer.parameter;
+  const reading = (value: number) => readAt(shape, measure, evaluator, [0], 0, [value])[0] ?? 0;
   const firstBeyond = (end: number): number | null => {
     for (let i = 1; i <= samples; i++) {
       evaluator.evaluate([(end * i) / samples]);
-      if (off(evaluator) > slack) return measure.read(evaluator);
+      if (off(evaluator) > slack) return reading((end * i) / samples);
     }
     return null;
   };
   const [below, above] = [firstBeyond(min), firstBeyond(max)];
-  evaluator.evaluate([0]);
-  return below === null && above === null ? null : { below, above, rest: measure.read(evaluator), measure };
+  return below === null && above === null ? null : { below, above, rest: reading(0), measure };
 }
 
 /** Largest coordinate by which a relation is off, against what it is at rest. */

@@ -53,8 +53,36 @@ export interface Measure {
   /** What is measured: the id of a part, or null for the whole. */
   readonly part: string | null;
   readonly what: 'width' | 'height' | 'depth' | 'angle' | 'distance' | 'count' | 'spacing';
-  /** In metres, radians or pieces. */
-  readonly read: (evaluator: Evaluator) => number;
+  /**
+   * In metres, radians or pieces. Turns and moves are those from the part's corners (24 numbers) at 0 of the slider, so
+   * that what other edits do to it does not count.
+   */
+  readonly read: (evaluator: Evaluator, zero: ArrayLike<number>) => number;
+}
+
+/**
+ * Reads a measure at values `at` of one slider, number `index`, while the others stand at `values`; then puts everything
+ * back. Turns and moves have the slider's sign.
+ */
+export function readAt(
+  shape: Shape,
+  { part: id, what, read }: Measure,
+  evaluator: Evaluator,
+  values: readonly number[],
+  index: number,
+  at: readonly number[],
+): number[] {
+  const move = (value: number) => evaluator.evaluate(values.map((other, i) => (i === index ? value : other)));
+  move(0);
+  const part = shape.parts.findIndex((one) => one.id === id);
+  const zero = Float64Array.from(evaluator.corners.slice(part * 24, part * 24 + 24));
+  const isSigned = what === 'angle' || what === 'distance';
+  const readings = at.map((value) => {
+    move(value);
+    return read(evaluator, zero) * (isSigned ? Math.sign(value) : 1);
+  });
+  evaluator.evaluate(values);
+  return readings;
 }
 
 const sizeWords = ['width', 'height', 'depth'] as const;
@@ -78,9 +106,8 @@ export function measureOf(shape: Shape, seed: Statement | undefined): Measure | 
   const rest = shape.parts[part];
   if (rest === undefined) return null;
   const id = rest.id;
-  const restCorners = Float64Array.from(rest.corners.flat());
   if (seed.op === 'rotate') {
-    return { part: id, what: 'angle', read: ({ corners }) => turn(restCorners, corners, part * 24) };
+    return { part: id, what: 'angle', read: ({ corners }, zero) => turn(zero, corners, part * 24) };
   }
   const moving = seed.op === 'translate' || seed.op === 'shear';
   const whole = seed.feature.every((sign) => sign === 0);
@@ -88,7 +115,7 @@ export function measureOf(shape: Shape, seed: Statement | undefined): Measure | 
     return {
       part: id,
       what: 'distance',
-      read: ({ corners }) => largestMove(restCorners, corners, part * 24) * shape.frame.scale,
+      read: ({ corners }, zero) => largestMove(zero, corners, part * 24) * shape.frame.scale,
     };
   }
   const axis = moving ? faceAxis(seed.feature) : changedAxis(shape, seed, part);
@@ -118,7 +145,8 @@ function changedAxis(shape: Shape, seed: Statement, part: number): Axis {
   const direction = reference !== null && 'part' in reference ? axes[reference.axis] : (reference ?? [1, 0, 0]);
   const along = axes.map((axis) => Math.abs(axis[0] * direction[0] + axis[1] * direction[1] + axis[2] * direction[2]));
   const best = along.indexOf(Math.max(...along));
-  return (seed.op === 'scale_2d' ? (best + 1) % 3 : best) as Axis;
+  // What grows in two directions is said to become wider, or, across its width, higher.
+  return (seed.op === 'scale_2d' ? (best === 0 ? 1 : 0) : best) as Axis;
 }
 
 export function mostAlong(axis: readonly number[]): Axis {
@@ -126,8 +154,8 @@ export function mostAlong(axis: readonly number[]): Axis {
   return sizes.indexOf(Math.max(...sizes)) as Axis;
 }
 
-/** The angle between the part's edges now and at rest, the largest of the three; unsigned. */
-function turn(rest: Float64Array, corners: Float64Array, at: number): number {
+/** The angle between the part's edges now and then, the largest of the three; unsigned. */
+function turn(rest: ArrayLike<number>, corners: Float64Array, at: number): number {
   let largest = 0;
   for (const bit of [1, 2, 4]) {
     let [dot, a2, b2] = [0, 0, 0];
@@ -143,7 +171,7 @@ function turn(rest: Float64Array, corners: Float64Array, at: number): number {
   return largest;
 }
 
-function largestMove(rest: Float64Array, corners: Float64Array, at: number): number {
+function largestMove(rest: ArrayLike<number>, corners: Float64Array, at: number): number {
   let largest = 0;
   for (let i = 0; i < 24; i += 3) {
     const move = [0, 1, 2].map((j) => (corners[at + i + j] as number) - (rest[i + j] as number));
@@ -164,7 +192,13 @@ function spacing(shape: Shape, evaluator: Evaluator, relation: number): number {
   return Math.hypot(...d) * shape.frame.scale;
 }
 
-const trimmed = (value: number, digits: number) => value.toFixed(digits).replace(/\.?0+$/, '');
+const trimmed = (value: number, digits: number) =>
+  value
+    .toFixed(digits)
+    .replace(/(\.\d*?)0+$/, '$1')
+    .replace(/\.$/, '')
+    .replace(/^-0$/, '0')
+    .replace(/^-/, '−');
 
 /** The unit in which lengths about as large as `metres` are shown, and how many digits. */
 function lengthUnit(metres: number): { unit: string; factor: number; digits: number } {
@@ -189,7 +223,7 @@ export function formatMeasure(what: Measure['what'], value: number, like = value
 
 /** What someone typed for a measure: "54", "54 cm", "0.54m", "12°". Null when it is no number. */
 export function parseMeasure(what: Measure['what'], text: string, like: number): number | null {
-  const match = /^\s*([-+]?[\d.,]+)\s*(m|cm|mm|°|deg)?\s*$/.exec(text);
+  const match = /^\s*([-+]?[\d.,]+)\s*(m|cm|mm|°|deg)?\s*$/.exec(text.replace('−', '-'));
   const number = Number((match?.[1] ?? '').replace(',', '.'));
   if (match === null || !Number.isFinite(number)) return null;
   if (what === 'angle') return (number * Math.PI) / 180;

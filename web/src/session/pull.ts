@@ -7,6 +7,7 @@ import type { Axis, LocalTriple, ReflectionRelation, Shape, ShapePart, Statement
 import { withRequest } from './document';
 import { type Measure, measureOf, pointIn } from './measure';
 import type { ModelCore } from './model_core';
+import { readLayer } from './reading';
 import {
   activeLayers,
   compiled,
@@ -162,7 +163,7 @@ function follow(key: number, part: number, feature: LocalTriple, direction: Vec3
   const { min, max } = entry.layer.parameter;
   const start = sliderValue(entry);
   const measure = measureOf(shape, seed);
-  const before = measure?.read(state.evaluator) ?? 0;
+  const before = measure ? (readLayer(entry, measure, [start])[0] ?? 0) : 0;
   const from = pointIn(state.evaluator.corners, part, feature);
   const step = (max - min) / 1000;
   const there = start + step <= max ? start + step : start - step;

@@ -1,6 +1,6 @@
 // A request in words: asked of a language model, read, and propagated into a layer. What was understood stays at hand, so
 // that each line of it can be corrected; the layer is then made anew in place of the one before.
-import { batch, computed, signal } from '@preact/signals';
+import { batch, computed, effect, signal, untracked } from '@preact/signals';
 import { AskError } from '../llm/ask_error';
 import { browserCache } from '../llm/cache';
 import { findRecorded, loadRecordings } from '../llm/recordings';
@@ -61,6 +61,20 @@ export function dismiss(): void {
   if (request.peek().kind !== 'asking') request.value = { kind: 'idle' };
 }
 
+/** What was said of another model is of no use for this one. What is typed stays. */
+export function forgetOtherModels(): () => void {
+  let files = document.peek().model?.files;
+  return effect(() => {
+    const { model } = document.value;
+    if (model?.files === files) return;
+    files = model?.files;
+    untracked(() => {
+      dismiss();
+      mentioned.value = mentioned.peek().filter((id) => model?.shape.parts.some((part) => part.id === id));
+    });
+  });
+}
+
 export function cancelRequest(): void {
   const state = request.peek();
   if (state.kind === 'asking') state.cancel();
@@ -90,6 +104,13 @@ async function questionOf(model: OpenModel, afresh: boolean): Promise<Question> 
     const source = liveSource(currentTarget(), { votes: settings.peek().votes, cache: browserCache, afresh });
     return { request: text, mentioned: parts, source };
   }
+  if (model.labels.size > 0)
+    throw new AskError(
+      'no_recording',
+      '',
+      'The recorded answers are about the parts as the file names them, and some have other labels now',
+      'Reset those labels, or enter a key in the settings to ask anything',
+    );
   const gallery = galleryOf(model);
   const recordings = gallery === null ? null : await loadRecordings(gallery);
   const known = findRecorded(recordings, text, parts);

@@ -25,6 +25,16 @@ import { useRecorded } from './recorded';
 
 const maxLength = 1000;
 
+const heights = new ResizeObserver(([entry]) => {
+  const height = entry?.borderBoxSize[0]?.blockSize ?? 0;
+  if (height > 0) globalThis.document.documentElement.style.setProperty('--composer-height', `${height}px`);
+});
+/** On a phone the composer lies over the end of the sheet, which must leave room for it. */
+function tellHeight(element: HTMLElement | null): void {
+  heights.disconnect();
+  if (element !== null) heights.observe(element);
+}
+
 /** @param picking whether clicks in the view belong to the edit by hand */
 export function Composer({ picking }: { picking: boolean }) {
   const field = useRef<HTMLTextAreaElement>(null);
@@ -45,7 +55,7 @@ export function Composer({ picking }: { picking: boolean }) {
     if (event.key !== 'Backspace') event.preventDefault();
   };
   return (
-    <section class="composer panel" aria-label="Request in words">
+    <section class="composer panel" aria-label="Request in words" ref={tellHeight}>
       <div class="composer-said">
         {state.kind === 'understood' && state.model === document.value.model && (
           <ReadingCard key={state.answer} state={state} />

@@ -1,7 +1,7 @@
 // The program: its layers as cards, what can be asked of this model at once, and the way to an edit by hand.
 import type { Signal } from '@preact/signals';
 import { useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
+import { useEffect, useRef } from 'preact/hooks';
 import { models } from '../session/core';
 import { loadGallery, type Suggestion } from '../session/gallery';
 import { playOnce } from '../session/play';
@@ -20,6 +20,13 @@ interface EditsProps {
 
 export function EditsPanel({ pickKind }: EditsProps) {
   const { model, layers } = document.value;
+  const cards = useRef<HTMLUListElement>(null);
+  const known = useRef(layers.length);
+  useEffect(() => {
+    // One more is a new edit, whose slider is wanted next; several are work that was opened.
+    if (layers.length === known.current + 1) cards.current?.lastElementChild?.scrollIntoView({ block: 'nearest' });
+    known.current = layers.length;
+  }, [layers.length]);
   if (model === null) return <p class="quiet empty">Edits appear here, each with a slider.</p>;
   const state = compiled.value;
   return (
@@ -34,7 +41,7 @@ export function EditsPanel({ pickKind }: EditsProps) {
           These edits do not go together: {state.text}
         </p>
       )}
-      <ul class="cards">
+      <ul class="cards" ref={cards}>
         {layers.map((entry, i) => (
           <LayerCard key={entry.key} entry={entry} first={i === 0} last={i === layers.length - 1} />
         ))}

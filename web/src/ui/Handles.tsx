@@ -9,6 +9,7 @@ import { nameOf } from '../session/document';
 import { formatMeasure, pointIn } from '../session/measure';
 import { playing } from '../session/play';
 import { beginPull, cancelPull, endPull, faceNormal, pull, pullBy, pullTo } from '../session/pull';
+import { readLayer } from '../session/reading';
 import { compiled, document, entryOf, select, selection, sliderValue, step } from '../session/session';
 import { Icon } from './Icon';
 import { apart, shown, stage } from './view';
@@ -257,8 +258,8 @@ function Reading() {
     const entry = entryOf(layer.key);
     const value = entry ? sliderValue(entry) : layer.start;
     const atEnd = value <= layer.min || value >= layer.max;
-    const now = layer.measure?.read(state.evaluator) ?? 0;
-    const like = Math.max(layer.before, now);
+    const now = entry && layer.measure ? (readLayer(entry, layer.measure, [value])[0] ?? 0) : 0;
+    const like = Math.max(Math.abs(layer.before), Math.abs(now));
     const reading = layer.measure
       ? `${formatMeasure(layer.measure.what, layer.before, like)} → ${formatMeasure(layer.measure.what, now, like)}`
       : '';

@@ -30,7 +30,7 @@ export function PartsPanel() {
       </ul>
       {hidden.size > 0 && (
         <button type="button" class="button wide" onClick={showAll}>
-          Show all {hidden.size} hidden
+          {hidden.size === 1 ? 'Show the hidden one' : `Show all ${hidden.size} hidden`}
         </button>
       )}
       <SelectedPart />

@@ -32,6 +32,7 @@ export function ReadingCard({ state }: { state: Understood }) {
   const chosen = seed.readings[state.reading];
   const open = useSignal(undecided !== null);
   const note = layer && effectWords(layer);
+  const corrected = correctedWords(state);
   return (
     <section class="reading" aria-label="What was understood">
       <header>
@@ -46,7 +47,7 @@ export function ReadingCard({ state }: { state: Understood }) {
           <Icon name={open.value ? 'down' : 'right'} />
           {layer !== null && chosen ? (
             <span>
-              <span class="quiet">Understood:</span> {chosen.words}
+              <span class="quiet">{corrected === null ? 'Understood:' : 'Corrected:'}</span> {corrected ?? chosen.words}
             </span>
           ) : (
             <span>{undecided ?? `“${state.request}” was understood, but is not applied`}</span>
@@ -65,6 +66,18 @@ export function ReadingCard({ state }: { state: Understood }) {
       {open.value && <Corrections state={state} />}
     </section>
   );
+}
+
+/** The edits in words, when they are no longer those of the reading that was chosen. */
+function correctedWords({ edit, answer, reading }: Understood): string | null {
+  const words = (statements: readonly Statement[]) =>
+    statements.map((statement) => statementWords(document.value, statement)).join('; ');
+  const chosen = answer.inference.seed.readings[reading]?.statements;
+  if (edit === null || chosen === undefined) return null;
+  const now = words(edit.seed);
+  // The core has checked the statements against the shape.
+  if (now === words(chosen as unknown as readonly Statement[])) return null;
+  return now.charAt(0).toLowerCase() + now.slice(1);
 }
 
 function Corrections({ state }: { state: Understood }) {

@@ -1,22 +1,13 @@
 // A layer's slider, and its value as the length, angle or count that it changes: drag, type, double-click to reset,
 // arrows (with Shift ten steps, with Alt a tenth), Page keys, Home and End.
 import { useComputed, useSignal } from '@preact/signals';
-import type { Evaluator } from '../program/compile';
+import { useId } from 'preact/hooks';
 import type { LayerEntry } from '../session/document';
 import { nameOf } from '../session/document';
 import { formatMeasure, type Measure, measureOf, parseMeasure } from '../session/measure';
 import { interrupt } from '../session/play';
-import {
-  compiled,
-  document,
-  settle,
-  setValue,
-  shownLayers,
-  slide,
-  sliderValue,
-  step,
-  titleOf,
-} from '../session/session';
+import { readLayer } from '../session/reading';
+import { compiled, document, settle, setValue, slide, sliderValue, step, titleOf } from '../session/session';
 
 const steps = 200;
 
@@ -72,7 +63,8 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
           <span class="quiet">{measureName(measure)}</span>
           {value !== 0 && (
             <span class="from">
-              {formatMeasure(measure.what, rest, Math.max(rest, now))} <span aria-hidden="true">→</span>
+              {formatMeasure(measure.what, rest, Math.max(Math.abs(rest), Math.abs(now)))}{' '}
+              <span aria-hidden="true">→</span>
             </span>
           )}
           <TypedValue entry={entry} measure={measure} now={now} rest={rest} />
@@ -89,6 +81,8 @@ const measureName = ({ part, what }: Measure) => {
 
 interface Reading {
   readonly text: string;
+  /** The value as the field shows it. */
+  readonly shown: string;
   readonly measure: Measure | null;
   readonly rest: number;
   readonly now: number;
@@ -96,10 +90,11 @@ interface Reading {
 
 const measures = new WeakMap<LayerEntry['layer'], Measure | null>();
 
-function readingOf(entry: LayerEntry): Reading {
+function readingOf(drawn: LayerEntry): Reading {
   step.value; // reads the evaluator below, which is no signal
+  const entry = document.value.layers.find(({ key }) => key === drawn.key) ?? drawn;
   const value = sliderValue(entry);
-  const plain = { text: value.toFixed(2), measure: null, rest: 0, now: 0 };
+  const plain = { text: value.toFixed(2), shown: '', measure: null, rest: 0, now: 0 };
   const state = compiled.value;
   const shape = document.value.model?.shape;
   if (state.kind !== 'ready' || shape === undefined || !entry.enabled) return plain;
@@ -110,32 +105,16 @@ function readingOf(entry: LayerEntry): Reading {
   }
   const measure = measures.get(layer) ?? null;
   if (measure === null) return plain;
-  const now = measure.read(state.evaluator);
-  const rest = probe(entry, measure, state.evaluator, [0])[0] ?? now;
-  const before = formatMeasure(measure.what, rest, Math.max(rest, now));
-  const after = formatMeasure(measure.what, now, Math.max(rest, now));
-  return { text: `${measureName(measure)} ${before} to ${after}`, measure, rest, now };
-}
-
-/** Reads a measure at other values of the slider, then puts everything back. */
-function probe(entry: LayerEntry, measure: Measure, evaluator: Evaluator, at: readonly number[]): number[] {
-  const layers = shownLayers();
-  const values = layers.map(sliderValue);
-  const index = layers.findIndex(({ key }) => key === entry.key);
-  const read = at.map((value) => {
-    evaluator.evaluate(values.map((other, i) => (i === index ? value : other)));
-    return measure.read(evaluator);
-  });
-  evaluator.evaluate(values);
-  return read;
+  const [rest = 0, now = 0] = readLayer(entry, measure, [0, value]);
+  const before = formatMeasure(measure.what, rest, Math.max(Math.abs(rest), Math.abs(now)));
+  const after = formatMeasure(measure.what, now, Math.max(Math.abs(rest), Math.abs(now)));
+  return { text: `${measureName(measure)} ${before} to ${after}`, shown: after, measure, rest, now };
 }
 
 /** The slider value at which a measure reads `wanted`, or the nearest there is: a scan, then bisection. */
 function solveFor(entry: LayerEntry, measure: Measure, wanted: number): number {
-  const state = compiled.peek();
-  if (state.kind !== 'ready') return sliderValue(entry);
   const { min, max } = entry.layer.parameter;
-  const read = (x: number) => probe(entry, measure, state.evaluator, [x])[0] ?? Number.NaN;
+  const read = (x: number) => readLayer(entry, measure, [x])[0] ?? Number.NaN;
   const samples = Array.from({ length: 65 }, (_, i) => min + ((max - min) * i) / 64);
   const errors = samples.map((x) => read(x) - wanted);
   const nearest = (value: number) => Math.abs(value);
@@ -162,36 +141,56 @@ interface TypedValueProps {
 function TypedValue({ entry, measure, now, rest }: TypedValueProps) {
   const typed = useSignal<string | null>(null);
   const wrong = useSignal(false);
-  const like = Math.max(rest, now);
+  const ended = useSignal(false);
+  const note = useId();
+  const like = Math.max(Math.abs(rest), Math.abs(now));
   const commit = () => {
     if (typed.value === null) return;
     const wanted = parseMeasure(measure.what, typed.value, like);
     wrong.value = wanted === null;
     if (wanted === null) return;
     typed.value = null;
-    setValue(entry.key, solveFor(entry, measure, wanted));
+    const found = solveFor(entry, measure, wanted);
+    setValue(entry.key, found);
+    const { min, max } = entry.layer.parameter;
+    ended.value =
+      (found === min || found === max) && formatMeasure(measure.what, wanted, like) !== readingOf(entry).shown;
   };
+  const said = wrong.value
+    ? `Type a ${measure.what === 'count' ? 'number' : `number, such as ${formatMeasure(measure.what, now, like)}`}.`
+    : ended.value
+      ? 'The slider goes no further.'
+      : null;
   return (
-    <input
-      class="typed"
-      type="text"
-      inputMode="decimal"
-      disabled={!entry.enabled}
-      aria-label={`${measureName(measure)}, type a value`}
-      aria-invalid={wrong.value}
-      value={typed.value ?? formatMeasure(measure.what, now, like)}
-      onFocus={(event) => event.currentTarget.select()}
-      onInput={(event) => {
-        typed.value = event.currentTarget.value;
-      }}
-      onBlur={commit}
-      onKeyDown={(event) => {
-        if (event.key === 'Enter') commit();
-        if (event.key === 'Escape') {
-          typed.value = null;
-          wrong.value = false;
-        }
-      }}
-    />
+    <>
+      <input
+        class="typed"
+        type="text"
+        inputMode="decimal"
+        disabled={!entry.enabled}
+        aria-label={`${measureName(measure)}, type a value`}
+        aria-invalid={wrong.value}
+        aria-describedby={said === null ? undefined : note}
+        value={typed.value ?? formatMeasure(measure.what, now, like)}
+        onFocus={(event) => event.currentTarget.select()}
+        onInput={(event) => {
+          typed.value = event.currentTarget.value;
+          ended.value = false;
+        }}
+        onBlur={commit}
+        onKeyDown={(event) => {
+          if (event.key === 'Enter') commit();
+          if (event.key === 'Escape') {
+            typed.value = null;
+            wrong.value = false;
+          }
+        }}
+      />
+      {said !== null && (
+        <span id={note} class="quiet typed-note" role="status">
+          {said}
+        </span>
+      )}
+    </>
   );
 }

@@ -4,17 +4,17 @@ import { useEffect } from 'preact/hooks';
 import { loadRecordings, type RecordedRequest } from '../llm/recordings';
 import { document } from '../session/session';
 
-/** The recorded requests of the present gallery model. */
+/** The recorded requests of the present gallery model that are worth a try; none while parts have other labels. */
 export function useRecorded(): readonly RecordedRequest[] {
   const found = useSignal<readonly RecordedRequest[]>([]);
-  const source = document.value.model?.source;
-  const gallery = source?.kind === 'gallery' ? source.id : null;
+  const { source, labels } = document.value.model ?? {};
+  const gallery = source?.kind === 'gallery' && labels?.size === 0 ? source.id : null;
   useEffect(() => {
     let current = true;
     found.value = [];
     if (gallery !== null)
       void loadRecordings(gallery).then((recordings) => {
-        if (current) found.value = recordings?.requests ?? [];
+        if (current) found.value = recordings?.requests.filter(({ suggest }) => suggest !== false) ?? [];
       });
     return () => {
       current = false;

@@ -1,12 +1,13 @@
 // What stands on the stage when the page has loaded: the work of a link, else that of the last visit, else the first
 // model of the gallery with an edit that shows itself once.
 import { effect } from '@preact/signals';
-import { restore, startAutosave } from '../session/autosave';
+import { type Restored, restore, startAutosave } from '../session/autosave';
 import { models } from '../session/core';
 import { loadGallery } from '../session/gallery';
 import type { ModelCore } from '../session/model_core';
 import { openGallery, openSaved, reopen } from '../session/open';
 import { playOnce } from '../session/play';
+import { forgetOtherModels } from '../session/request';
 import { document, propagate, say } from '../session/session';
 import { readFragment } from '../share/link';
 import { keepForOffline } from './update';
@@ -31,33 +32,40 @@ export function welcome(): () => void {
   });
   const onHashChange = () => {
     const core = models.peek();
-    if (core) void openFragment(core);
+    if (core) void openFragment(core).then((fault) => fault && say(fault, 'error'));
   };
   addEventListener('hashchange', onHashChange);
+  const stopForgetting = forgetOtherModels();
   return () => {
+    stopForgetting();
     stopWaiting();
     stopSaving();
     removeEventListener('hashchange', onHashChange);
   };
 }
 
-/** Whether there was a link to open. The fragment is taken out of the address: it describes a moment, not the page. */
-async function openFragment(core: ModelCore): Promise<boolean> {
+/**
+ * Opens the work of a link. The fragment is taken out of the address: it describes a moment, not the page.
+ * @returns null when there was a link and it was opened, else what is wrong with it; empty when there was none
+ */
+async function openFragment(core: ModelCore): Promise<string | null> {
   const read = await readFragment(location.hash);
-  if (read === null) return false;
+  if (read === null) return '';
   if (!isEmbedded) history.replaceState(null, '', location.pathname + location.search);
-  if (!read.ok) {
-    say(read.text, 'error');
-    return false;
-  }
+  if (!read.ok) return read.text;
   await openSaved(core, read.saved);
-  return true;
+  return null;
 }
 
 async function begin(core: ModelCore): Promise<void> {
   const kept = isEmbedded ? Promise.resolve(null) : restore();
-  if (await openFragment(core)) return;
-  const last = await kept;
+  const fault = await openFragment(core);
+  if (fault === null) return;
+  await beginWithoutLink(core, await kept);
+  if (fault !== '') say(fault, 'error'); // last, since opening a model clears what was said before
+}
+
+async function beginWithoutLink(core: ModelCore, last: Restored | null): Promise<void> {
   if (last !== null && (await reopen(core, last.files, last.source, last.saved))) return;
   const [first] = await loadGallery();
   if (first === undefined || document.peek().model !== null) return;

@@ -137,13 +137,12 @@ export function brokenWords(shape: Shape, layer: Layer, relation: ShapeRelation,
   const off = distance(shape, worst);
   if (found === null) return `comes apart by up to ${off}`;
   const { below, above, rest, measure } = found;
-  const isUnsigned = measure.what === 'distance' || measure.what === 'angle';
-  const at = (value: number | null, side: -1 | 1) => {
+  const at = (value: number | null) => {
     if (value === null) return [];
     const change = value - rest;
-    const amount = formatMeasure(measure.what, Math.abs(change), Math.max(rest, value));
-    return [`${(isUnsigned ? side : change) < 0 ? '−' : '+'}${amount}`];
+    const amount = formatMeasure(measure.what, Math.abs(change), Math.max(Math.abs(rest), Math.abs(value)));
+    return [`${change < 0 ? '−' : '+'}${amount}`];
   };
   const verb = relation.kind === 'reflection' ? 'no longer mirrored' : 'loose';
-  return `${verb} beyond ${[...at(below, -1), ...at(above, 1)].join(' and ')}, by up to ${off}`;
+  return `${verb} beyond ${[...at(below), ...at(above)].join(' and ')}, by up to ${off}`;
 }
