@@ -549,11 +549,11 @@ class Loop {
 /// looks back; a part that it moved with its first edited neighbour often must stretch once the neighbour at its other
 /// end is known.
 Revisions find_revisions(const Shape& shape, const ResolvedRequest& request, const PropagateOptions& options,
-                         const Loop& first, const Progress& progress) {
+                         const Loop& first, const Loop::Faults& faults_of_first, const Progress& progress) {
   int budget = std::min(revision_cost / first.cost(), most_revision_runs);
   const Progress silent;
   Revisions chosen;
-  Loop::Faults fewest = first.faults();
+  Loop::Faults fewest = faults_of_first;
   auto possible = first.possible_revisions();
   const int total = budget;
   while (fewest > Loop::Faults{} && budget > 0) {
@@ -589,12 +589,13 @@ Result<Propagation> propagate(const Shape& shape, const EditRequest& request, co
   Loop first(shape, *resolved, none, options, progress);
   if (const Status found = first.search(); !found.ok()) return found.error();
   if (!options.revisions) return first.finish();
+  const Loop::Faults before = first.faults();
   const Revisions revisions =
-      first.faults() == Loop::Faults{} ? none : find_revisions(shape, *resolved, options, first, progress);
+      before == Loop::Faults{} ? none : find_revisions(shape, *resolved, options, first, before, progress);
   if (revisions.empty()) return first.finish();
   Loop second(shape, *resolved, revisions, options, progress);
   if (const Status found = second.search(); !found.ok()) return found.error();
-  const Loop::Faults before = first.faults(), after = second.faults();
+  const Loop::Faults after = second.faults();
   const std::string gain = before.first > after.first
                                ? std::to_string(before.first - after.first) + " more relations are kept"
                                : std::to_string(before.second - after.second) + " fewer parts are distorted";

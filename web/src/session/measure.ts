@@ -72,16 +72,20 @@ export function readAt(
   index: number,
   at: readonly number[],
 ): number[] {
-  const move = (value: number) => evaluator.evaluate(values.map((other, i) => (i === index ? value : other)));
+  let standing = Number.NaN;
+  const move = (value: number) => {
+    if (value !== standing) evaluator.evaluate(values.map((other, i) => (i === index ? value : other)));
+    standing = value;
+  };
   move(0);
   const part = shape.parts.findIndex((one) => one.id === id);
-  const zero = Float64Array.from(evaluator.corners.slice(part * 24, part * 24 + 24));
+  const zero = evaluator.corners.slice(part * 24, part * 24 + 24);
   const isSigned = what === 'angle' || what === 'distance';
   const readings = at.map((value) => {
     move(value);
     return read(evaluator, zero) * (isSigned ? Math.sign(value) : 1);
   });
-  evaluator.evaluate(values);
+  move(values[index] ?? 0);
   return readings;
 }
 
@@ -149,6 +153,13 @@ function changedAxis(shape: Shape, seed: Statement, part: number): Axis {
   return (seed.op === 'scale_2d' ? (best === 0 ? 1 : 0) : best) as Axis;
 }
 
+/** Along + of each axis: to its left, up, forwards. */
+export const axes: readonly [Vec3, Vec3, Vec3] = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+];
+
 export function mostAlong(axis: readonly number[]): Axis {
   const sizes = axis.map(Math.abs);
   return sizes.indexOf(Math.max(...sizes)) as Axis;
@@ -212,6 +223,9 @@ export function formatSize(size: Size): string {
   const { unit, factor, digits } = lengthUnit(Math.max(...size));
   return `${size.map((metres) => trimmed(metres * factor, Math.min(digits, 1) || digits)).join(' × ')} ${unit}`;
 }
+
+/** What decides the unit of two values that are shown beside each other. */
+export const larger = (a: number, b: number): number => Math.max(Math.abs(a), Math.abs(b));
 
 /** A value of a measure with its unit; `like` decides the unit, so that before and after read alike. */
 export function formatMeasure(what: Measure['what'], value: number, like = value): string {

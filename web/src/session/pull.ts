@@ -5,7 +5,7 @@ import { signal } from '@preact/signals';
 import { statementText } from '../program/text';
 import type { Axis, LocalTriple, ReflectionRelation, Shape, ShapePart, Statement, Vec3 } from '../program/types';
 import { withRequest } from './document';
-import { type Measure, measureOf, pointIn } from './measure';
+import { axes, type Measure, measureOf, pointIn } from './measure';
 import type { ModelCore } from './model_core';
 import { readLayer } from './reading';
 import {
@@ -53,11 +53,6 @@ export interface Pull {
 }
 export const pull = signal<Pull | null>(null);
 
-const axes: readonly Vec3[] = [
-  [1, 0, 0],
-  [0, 1, 0],
-  [0, 0, 1],
-];
 const dot = (a: Vec3, b: Vec3) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const isFace = (feature: LocalTriple) => feature.filter((sign) => sign !== 0).length === 1;
 

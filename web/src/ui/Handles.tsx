@@ -6,7 +6,7 @@ import type { Axis, LocalTriple } from '../program/types';
 import { axisOfDrag } from '../scene/drag';
 import { models } from '../session/core';
 import { nameOf } from '../session/document';
-import { formatMeasure, pointIn } from '../session/measure';
+import { formatMeasure, larger, pointIn } from '../session/measure';
 import { playing } from '../session/play';
 import { beginPull, cancelPull, endPull, faceNormal, pull, pullBy, pullTo } from '../session/pull';
 import { readLayer } from '../session/reading';
@@ -259,7 +259,7 @@ function Reading() {
     const value = entry ? sliderValue(entry) : layer.start;
     const atEnd = value <= layer.min || value >= layer.max;
     const now = entry && layer.measure ? (readLayer(entry, layer.measure, [value])[0] ?? 0) : 0;
-    const like = Math.max(Math.abs(layer.before), Math.abs(now));
+    const like = larger(layer.before, now);
     const reading = layer.measure
       ? `${formatMeasure(layer.measure.what, layer.before, like)} → ${formatMeasure(layer.measure.what, now, like)}`
       : '';

@@ -2,9 +2,9 @@
 import { useId } from 'preact/hooks';
 import type { Anchor, LocalTriple, Shape } from '../program/types';
 import { nameOf } from '../session/document';
-import { mostAlong } from '../session/measure';
+import { axes, mostAlong } from '../session/measure';
 import { document } from '../session/session';
-import { axes, groupOfPart, isOfGroup, type Operator, type SeedChoice, withPart } from './seed_choice';
+import { groupOfPart, isOfGroup, type Operator, type SeedChoice, withPart } from './seed_choice';
 import { allFeatures, axisWords, type FeatureKind, featureKind, featureWords } from './words';
 
 export const operators: readonly { readonly id: Operator; readonly label: string; readonly help: string }[] = [

@@ -4,7 +4,7 @@ import { useComputed, useSignal } from '@preact/signals';
 import { useId } from 'preact/hooks';
 import type { LayerEntry } from '../session/document';
 import { nameOf } from '../session/document';
-import { formatMeasure, type Measure, measureOf, parseMeasure } from '../session/measure';
+import { formatMeasure, larger, type Measure, measureOf, parseMeasure } from '../session/measure';
 import { interrupt } from '../session/play';
 import { readLayer } from '../session/reading';
 import { compiled, document, settle, setValue, slide, sliderValue, step, titleOf } from '../session/session';
@@ -63,8 +63,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
           <span class="quiet">{measureName(measure)}</span>
           {value !== 0 && (
             <span class="from">
-              {formatMeasure(measure.what, rest, Math.max(Math.abs(rest), Math.abs(now)))}{' '}
-              <span aria-hidden="true">→</span>
+              {formatMeasure(measure.what, rest, larger(rest, now))} <span aria-hidden="true">→</span>
             </span>
           )}
           <TypedValue entry={entry} measure={measure} now={now} rest={rest} />
@@ -81,8 +80,6 @@ const measureName = ({ part, what }: Measure) => {
 
 interface Reading {
   readonly text: string;
-  /** The value as the field shows it. */
-  readonly shown: string;
   readonly measure: Measure | null;
   readonly rest: number;
   readonly now: number;
@@ -94,7 +91,7 @@ function readingOf(drawn: LayerEntry): Reading {
   step.value; // reads the evaluator below, which is no signal
   const entry = document.value.layers.find(({ key }) => key === drawn.key) ?? drawn;
   const value = sliderValue(entry);
-  const plain = { text: value.toFixed(2), shown: '', measure: null, rest: 0, now: 0 };
+  const plain = { text: value.toFixed(2), measure: null, rest: 0, now: 0 };
   const state = compiled.value;
   const shape = document.value.model?.shape;
   if (state.kind !== 'ready' || shape === undefined || !entry.enabled) return plain;
@@ -106,9 +103,9 @@ function readingOf(drawn: LayerEntry): Reading {
   const measure = measures.get(layer) ?? null;
   if (measure === null) return plain;
   const [rest = 0, now = 0] = readLayer(entry, measure, [0, value]);
-  const before = formatMeasure(measure.what, rest, Math.max(Math.abs(rest), Math.abs(now)));
-  const after = formatMeasure(measure.what, now, Math.max(Math.abs(rest), Math.abs(now)));
-  return { text: `${measureName(measure)} ${before} to ${after}`, shown: after, measure, rest, now };
+  const before = formatMeasure(measure.what, rest, larger(rest, now));
+  const after = formatMeasure(measure.what, now, larger(rest, now));
+  return { text: `${measureName(measure)} ${before} to ${after}`, measure, rest, now };
 }
 
 /** The slider value at which a measure reads `wanted`, or the nearest there is: a scan, then bisection. */
@@ -143,7 +140,7 @@ function TypedValue({ entry, measure, now, rest }: TypedValueProps) {
   const wrong = useSignal(false);
   const ended = useSignal(false);
   const note = useId();
-  const like = Math.max(Math.abs(rest), Math.abs(now));
+  const like = larger(rest, now);
   const commit = () => {
     if (typed.value === null) return;
     const wanted = parseMeasure(measure.what, typed.value, like);
@@ -153,8 +150,9 @@ function TypedValue({ entry, measure, now, rest }: TypedValueProps) {
     const found = solveFor(entry, measure, wanted);
     setValue(entry.key, found);
     const { min, max } = entry.layer.parameter;
-    ended.value =
-      (found === min || found === max) && formatMeasure(measure.what, wanted, like) !== readingOf(entry).shown;
+    const [reached = wanted] = readLayer(entry, measure, [found]);
+    const show = (value: number) => formatMeasure(measure.what, value, like);
+    ended.value = (found === min || found === max) && show(wanted) !== show(reached);
   };
   const said = wrong.value
     ? `Type a ${measure.what === 'count' ? 'number' : `number, such as ${formatMeasure(measure.what, now, like)}`}.`

@@ -8,9 +8,8 @@ import {
   type PointReference,
   type Shape,
   type Statement,
-  type Vec3,
 } from '../program/types';
-import { mostAlong } from '../session/measure';
+import { axes, mostAlong } from '../session/measure';
 
 export type Operator = Statement['op'];
 
@@ -28,13 +27,6 @@ export interface SeedChoice {
   /** Closed form in x; null: what is usual for the operator. */
   readonly amount: string | null;
 }
-
-/** Along + of each axis: to its left, up, forwards. */
-export const axes: readonly [Vec3, Vec3, Vec3] = [
-  [1, 0, 0],
-  [0, 1, 0],
-  [0, 0, 1],
-];
 
 export const firstChoice: SeedChoice = {
   op: 'translate',

@@ -10,7 +10,7 @@ import {
 } from '../program/types';
 import { type Document, type LayerEntry, nameOf } from '../session/document';
 import { looseningOf } from '../session/loosening';
-import { formatMeasure } from '../session/measure';
+import { formatMeasure, larger } from '../session/measure';
 import { activeLayers, titleOf } from '../session/session';
 import type { TraceStep } from '../session/trace';
 import { capital, listWords, relationWords, statementWords, whyWords } from './words';
@@ -140,7 +140,7 @@ export function brokenWords(shape: Shape, layer: Layer, relation: ShapeRelation,
   const at = (value: number | null) => {
     if (value === null) return [];
     const change = value - rest;
-    const amount = formatMeasure(measure.what, Math.abs(change), Math.max(Math.abs(rest), Math.abs(value)));
+    const amount = formatMeasure(measure.what, Math.abs(change), larger(rest, value));
     return [`${change < 0 ? '−' : '+'}${amount}`];
   };
   const verb = relation.kind === 'reflection' ? 'no longer mirrored' : 'loose';
