@@ -6,8 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/edit/amount.h"
-#include "core/edit/apply.h"
+#include "core/amount/amount.h"
+#include "core/export/apply.h"
 #include "core/gallery/gallery.h"
 #include "core/infer/inference.h"
 #include "core/infer/prompt.h"

@@ -1,5 +1,5 @@
 // parsel apply: an edited model, or one that plays the edit, as GLB.
-#include "core/edit/apply.h"
+#include "core/export/apply.h"
 
 #include <algorithm>
 #include <iostream>

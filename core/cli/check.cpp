@@ -2,9 +2,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "core/check/check.h"
 #include "core/cli/command.h"
 #include "core/cli/input.h"
-#include "core/propagate/check.h"
 
 namespace parsel::cli {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "core/cli/command.h"
-#include "core/shape/gltf_document.h"
+#include "core/gltf/document.h"
 
 namespace parsel::cli {
 

@@ -1,9 +1,9 @@
 // parsel score: the paper's three measures of a program against the true one.
 #include <nlohmann/json.hpp>
 
+#include "core/check/score.h"
 #include "core/cli/command.h"
 #include "core/cli/input.h"
-#include "core/propagate/score.h"
 
 namespace parsel::cli {
 

@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/amount/amount.h"
 #include "core/base/result.h"
-#include "core/edit/amount.h"
 #include "core/edit/operators.h"
 #include "core/shape/shape.h"
 
@@ -76,6 +76,9 @@ struct Program {
   std::string shape_sha256;
   std::vector<Layer> layers;
 };
+
+/// The part whose corners a statement moves: its part, or the parent of its relation. Nothing when unknown.
+std::optional<PartIndex> part_of(const Shape& shape, const Statement& statement);
 
 std::string_view to_string(WhyKind kind);
 std::optional<WhyKind> why_kind(std::string_view text);

@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdio>
 
-#include "core/edit/number.h"
+#include "core/amount/number.h"
 #include "core/edit/program.h"
 #include "core/edit/program_fields.h"
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "core/edit/amount_range.h"
-#include "core/edit/number.h"
+#include "core/amount/amount_range.h"
+#include "core/amount/number.h"
 #include "core/edit/program_fields.h"
 
 namespace parsel {

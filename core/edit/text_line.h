@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/edit/amount.h"
+#include "core/amount/amount.h"
 
 namespace parsel {
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "core/propagate/transfer.h"
-
 namespace parsel {
 
 EditRequest assemble(const Shape& shape, const std::vector<Statement>& seed, const std::vector<HintVote>& hints,

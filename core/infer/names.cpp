@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/edit/program_fields.h"
-#include "core/propagate/transfer.h"
 
 namespace parsel {
 

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/sha256.h"
+#include "core/base/text.h"
 #include "core/edit/program_fields.h"
 #include "core/infer/prompt_texts.h"
-#include "core/shape/gltf_document.h"
 #include "core/shape/words.h"
 
 namespace parsel {

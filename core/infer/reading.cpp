@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/text.h"
 #include "core/propagate/edit_request.h"
 #include "core/propagate/transfer.h"
-#include "core/shape/gltf_document.h"
 
 namespace parsel {
 

@@ -2,11 +2,11 @@
 
 #include <optional>
 
+#include "core/base/text.h"
 #include "core/edit/program_fields.h"
 #include "core/infer/json_block.h"
 #include "core/infer/names.h"
 #include "core/infer/seed_json.h"
-#include "core/shape/gltf_document.h"
 
 namespace parsel {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/amount/amount.h"
+#include "core/amount/amount_functions.h"
 #include "core/base/tolerance.h"
-#include "core/edit/amount.h"
-#include "core/edit/amount_functions.h"
 #include "core/propagate/solve.h"
 
 namespace parsel {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/propagate/prove.h"
-#include "core/propagate/range.h"
 #include "core/propagate/transfer.h"
+#include "core/prove/prove.h"
+#include "core/prove/range.h"
 
 namespace parsel {
 

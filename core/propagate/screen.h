@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/propagate/candidates.h"
-#include "core/propagate/range.h"
+#include "core/prove/range.h"
 
 namespace parsel {
 

@@ -174,17 +174,4 @@ Step to_step(const Shape& shape, const Statement& statement) {
   return step;
 }
 
-std::optional<PartIndex> part_of(const Shape& shape, const Statement& statement) {
-  if (is_geometric(statement.op)) return shape.find_part(statement.part);
-  const auto relation = shape.find_relation(statement.relation);
-  if (!relation) return std::nullopt;
-  if (!shape.relations[*relation].is_group()) return std::nullopt;
-  return parent_of(shape.relations[*relation]);
-}
-
-PartIndex parent_of(const Relation& group) {
-  if (const auto* translation = std::get_if<Translation>(&group.detail)) return translation->parent;
-  return std::get<Rotation>(group.detail).parent;
-}
-
 }  // namespace parsel

@@ -21,10 +21,4 @@ Statement to_statement(const Shape& shape, PartIndex part, const Step& step, con
 /// Resolves a statement's references on the shape at rest. The statement's parts must be known.
 Step to_step(const Shape& shape, const Statement& statement);
 
-/// The virtual part of a translation or rotation.
-PartIndex parent_of(const Relation& group);
-
-/// The part whose corners a statement moves: its part, or the parent of its relation. Nothing when unknown.
-std::optional<PartIndex> part_of(const Shape& shape, const Statement& statement);
-
 }  // namespace parsel

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/sha256.h"
+#include "core/base/text.h"
 #include "core/shape/attachment.h"
 #include "core/shape/gltf_import.h"
 #include "core/shape/group.h"

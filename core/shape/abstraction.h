@@ -8,13 +8,11 @@
 
 #include "core/base/index.h"
 #include "core/base/result.h"
+#include "core/gltf/document.h"
 #include "core/shape/part.h"
 #include "core/shape/shape.h"
 
 namespace parsel {
-
-/// Bytes of the external buffers of a .gltf, by the URI that the file names, percent-decoded ("box 0.bin").
-using ExternalBuffers = std::map<std::string, std::string, std::less<>>;
 
 /// Labels that a person gives instead of the file's own, by part: "node:3" for every primitive of glTF node 3, or
 /// "node:3/1" for its primitive 1 alone, which counts before the former. Ids are no keys here: they follow from labels.

@@ -10,7 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "core/shape/gltf_accessor.h"
+#include "core/base/text.h"
+#include "core/gltf/accessor.h"
 #include "core/shape/label.h"
 
 namespace parsel {

@@ -11,8 +11,8 @@
 #include "core/base/geometry.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
+#include "core/gltf/document.h"
 #include "core/shape/abstraction.h"
-#include "core/shape/gltf_document.h"
 #include "core/shape/part.h"
 #include "core/shape/shape.h"
 

@@ -9,7 +9,8 @@
 #include <optional>
 #include <set>
 
-#include "core/shape/gltf_document.h"
+#include "core/base/result.h"
+#include "core/base/text.h"
 
 namespace parsel {
 namespace {

@@ -19,6 +19,11 @@ bool is_dissolved(const Part& part, const std::vector<RelationIndex>& dissolved)
 
 }  // namespace
 
+PartIndex parent_of(const Relation& group) {
+  if (const auto* translation = std::get_if<Translation>(&group.detail)) return translation->parent;
+  return std::get<Rotation>(group.detail).parent;
+}
+
 std::optional<PartIndex> Shape::find_part(std::string_view id) const {
   for (const PartIndex p : parts.indices()) {
     if (parts[p].id == id) return p;

@@ -80,6 +80,9 @@ struct Relation {
   bool is_attachment() const { return kind >= RelationKind::point; }
 };
 
+/// The virtual part of a translation or rotation.
+PartIndex parent_of(const Relation& group);
+
 /// Something in the file that was left out or changed, for people to read.
 struct Warning {
   std::string place;

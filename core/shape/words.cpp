@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "core/shape/gltf_document.h"
+#include "core/base/text.h"
 
 namespace parsel {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "core/check/score.h"
 #include "core/propagate/propagate.h"
-#include "core/propagate/score.h"
 #include "tests/core/gallery_truth.h"
 #include "tests/core/real_models.h"
 

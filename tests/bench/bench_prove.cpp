@@ -5,8 +5,8 @@
 #include <ctime>
 #include <vector>
 
-#include "core/propagate/prove.h"
-#include "core/propagate/range.h"
+#include "core/prove/prove.h"
+#include "core/prove/range.h"
 
 using namespace parsel;
 

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/edit/apply.h"
-#include "core/edit/apply_accessor.h"
-#include "core/edit/apply_file.h"
-#include "core/edit/apply_scene.h"
+#include "core/export/apply.h"
+#include "core/export/apply_accessor.h"
+#include "core/export/apply_file.h"
+#include "core/export/apply_scene.h"
 
 namespace parsel::apply_fixture {
 

@@ -1,4 +1,4 @@
-#include "core/edit/amount.h"
+#include "core/amount/amount.h"
 
 #include <doctest/doctest.h>
 

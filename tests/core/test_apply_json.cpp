@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/edit/apply_json.h"
+#include "core/gltf/json_text.h"
 
 using namespace parsel;
 using gltf::JsonText;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <iostream>
 
-#include "core/edit/apply_sweep.h"
+#include "core/export/apply_sweep.h"
 #include "tests/core/apply_fixture.h"
 
 using namespace parsel;

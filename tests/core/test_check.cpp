@@ -1,4 +1,4 @@
-#include "core/propagate/check.h"
+#include "core/check/check.h"
 
 #include <doctest/doctest.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/check/replay.h"
 #include "core/edit/evaluate.h"
-#include "core/propagate/prove.h"
-#include "core/propagate/range.h"
-#include "core/propagate/replay.h"
+#include "core/prove/prove.h"
+#include "core/prove/range.h"
 #include "hand_shapes.h"
 
 using namespace parsel;

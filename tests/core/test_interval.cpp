@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/propagate/interval.h"
-#include "core/propagate/jet.h"
+#include "core/prove/interval.h"
+#include "core/prove/jet.h"
 #include "hand_shapes.h"
 
 using namespace parsel;

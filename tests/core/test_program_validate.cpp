@@ -3,8 +3,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/amount/amount_range.h"
 #include "core/base/random.h"
-#include "core/edit/amount_range.h"
 #include "core/edit/program.h"
 #include "tests/core/golden.h"
 

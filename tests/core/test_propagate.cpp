@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "box_shapes.h"
+#include "core/check/check.h"
 #include "core/edit/evaluate.h"
-#include "core/propagate/check.h"
 #include "core/propagate/propagate.h"
 
 using namespace parsel;

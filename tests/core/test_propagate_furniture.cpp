@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/check/check.h"
 #include "core/edit/evaluate.h"
-#include "core/propagate/check.h"
 #include "core/propagate/propagate.h"
 #include "core/shape/abstraction.h"
 #include "tests/core/real_models.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/propagate/check.h"
+#include "core/check/check.h"
 #include "core/propagate/propagate.h"
 #include "gallery_truth.h"
 

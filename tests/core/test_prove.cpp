@@ -1,4 +1,4 @@
-#include "core/propagate/prove.h"
+#include "core/prove/prove.h"
 
 #include <doctest/doctest.h>
 
@@ -6,8 +6,8 @@
 
 #include "core/base/tolerance.h"
 #include "core/edit/evaluate.h"
-#include "core/propagate/deviation.h"
-#include "core/propagate/scope.h"
+#include "core/prove/deviation.h"
+#include "core/prove/scope.h"
 #include "hand_shapes.h"
 
 using namespace parsel;

@@ -1,4 +1,4 @@
-#include "core/propagate/range.h"
+#include "core/prove/range.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "core/propagate/score.h"
+#include "core/check/score.h"
 
 #include <doctest/doctest.h>
 

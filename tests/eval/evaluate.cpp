@@ -31,8 +31,8 @@
 #include <set>
 #include <sstream>
 
-#include "core/edit/apply.h"
-#include "core/propagate/check.h"
+#include "core/check/check.h"
+#include "core/export/apply.h"
 #include "core/propagate/propagate.h"
 #include "core/shape/gltf_import.h"
 #include "tests/eval/isolate.h"
