@@ -13,9 +13,7 @@ namespace parsel::replay {
 ///     are those that the layer's statements and reports imply;
 ///   * every part that counts has at most one step that edits it, seeds first; every statement belongs to exactly one
 ///     step, that of its own part, and has the step's kind;
-///   * every step took the part with a broken symmetry, if any, and then the most broken relations, ties by id, with
-///   the
-///     statements of the earlier steps alone applied;
+///   * every step edits a part that something pulls at; which of those came first is not judged;
 ///   * `pulled_by` and `result` are what the samples give before and after the step's statements, and name every
 ///   relation
 ///     to an edited part that is off; `left_broken` follows from `result`;

@@ -14,26 +14,6 @@ namespace {
 constexpr std::array<std::string_view, 7> hint_names = {"translate",    "rotate",       "scale",     "shear",
                                                         "change_count", "change_delta", "keep_fixed"};
 
-bool allows(const std::optional<Hint>& hint, Op op) {
-  if (!hint) return true;
-  switch (*hint) {
-    case Hint::translate:
-      return op == Op::translate;
-    case Hint::rotate:
-      return op == Op::rotate;
-    case Hint::scale:
-      return op == Op::scale_1d || op == Op::scale_2d || op == Op::scale_3d;
-    case Hint::shear:
-      return op == Op::shear;
-    case Hint::change_count:
-    case Hint::change_delta:
-      return op == Op::change_delta;
-    case Hint::keep_fixed:
-      return false;
-  }
-  return false;
-}
-
 /// Two displacement fields that are equal up to scale have equal keys (up to rounding, which costs a double, no more).
 std::uint64_t key_of(const ResolvedOperator& what, const Corners& field) {
   Corners normal = field;
@@ -111,7 +91,7 @@ class Collector {
       : shape_(shape), part_(part), rest_(shape.parts[part].hexahedron.corners), hint_(hint) {}
 
   void add(const ResolvedOperator& what, int symmetry_cost) {
-    if (!allows(hint_, what.op)) return;
+    if (!allows(hint_, what, symmetry_cost)) return;
     const Corners field = unit_field(what, rest_);
     if (field.cwiseAbs().maxCoeff() < 1e-6) return;
     if (seen_.insert(key_of(what, field)).second)
@@ -119,9 +99,9 @@ class Collector {
   }
 
   void add_group(Anchor anchor) {
-    if (!allows(hint_, Op::change_delta)) return;
     ResolvedOperator what;
     what.op = Op::change_delta;
+    if (!allows(hint_, what, 0)) return;
     const Corners field = group_field(shape_, part_, Op::change_delta, anchor);
     if (field.cwiseAbs().maxCoeff() > 1e-6) candidates_.push_back({what, anchor, field, 0, false});
   }
@@ -162,17 +142,16 @@ class Collector {
   /// Operators on faces, edges and corners, with the part's own points and axes.
   void add_features(const Hexahedron& own) {
     static const std::vector<LocalTriple> triples = all_triples();
-    std::vector<Axis> axes = axes_of(own);
-    axes.resize(3);
+    const std::vector<Axis> axes = axes_of(own);
     for (const LocalTriple& feature : triples) {
       const int order = order_of(feature);
       if (order == 0) continue;
       ResolvedOperator what;
       what.feature = feature;
       what.op = Op::translate;
-      for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < axes.size(); ++i) {
         what.direction = axes[i].direction;
-        add(what, order == 1 && feature[i] != 0 ? 0 : 2);
+        add(what, order == 1 && i < 3 && feature[i] != 0 ? 0 : 2);
       }
       if (order == 3) continue;
       for (const LocalTriple& at : triples) {
@@ -192,6 +171,20 @@ class Collector {
             with_op(what, Op::rotate, 2);
           }
         }
+      }
+    }
+  }
+
+  void add_moved_faces(const Hexahedron& own, const Vec3& direction) {
+    ResolvedOperator what;
+    what.op = Op::translate;
+    what.direction = direction;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double along = own.axes.row(static_cast<int>(axis)).dot(direction.transpose());
+      for (const int side : {-1, 1}) {
+        what.feature = {0, 0, 0};
+        what.feature[axis] = side;
+        add(what, std::abs(along) > 1 - 1e-9 ? 0 : 2);
       }
     }
   }
@@ -228,6 +221,28 @@ std::optional<Hint> hint_from_string(std::string_view text) {
 
 std::string_view to_string(Hint hint) {
   return hint_names[static_cast<std::size_t>(hint)];
+}
+
+bool allows(const std::optional<Hint>& hint, const ResolvedOperator& what, int symmetry_cost) {
+  if (!hint) return true;
+  const Op op = what.op;
+  const bool whole = what.feature == LocalTriple{0, 0, 0};
+  const bool scales = op == Op::scale_1d || op == Op::scale_2d || op == Op::scale_3d;
+  switch (*hint) {
+    case Hint::translate:
+      return op == Op::translate && whole;
+    case Hint::rotate:
+    case Hint::shear:
+      return (op == Op::rotate && whole) || op == Op::shear || (op == Op::translate && !whole && symmetry_cost >= 2);
+    case Hint::scale:
+      return scales || (op == Op::translate && !whole && symmetry_cost == 0);
+    case Hint::change_count:
+    case Hint::change_delta:
+      return op == Op::change_delta;
+    case Hint::keep_fixed:
+      return false;
+  }
+  return false;
 }
 
 std::vector<Candidate> own_candidates(const Shape& shape, PartIndex part, const std::optional<Hint>& hint) {
@@ -292,6 +307,11 @@ std::vector<Candidate> neighbour_candidates(const Shape& shape, PartIndex part, 
       if (direction.norm() < exact) continue;
       motion.direction = direction.normalized();
       collector.add(motion, 0);
+    }
+    // An end that goes where it is pulled to, while the other stays: how a leg tilts.
+    for (const Vec3& direction : {constraint.goal.back(), constraint.goal.front()}) {
+      if (direction.norm() < exact) continue;
+      collector.add_moved_faces(own, direction.normalized());
     }
   }
   return collector.take(true);

@@ -15,6 +15,11 @@ enum class Hint { translate, rotate, scale, shear, change_count, change_delta, k
 std::optional<Hint> hint_from_string(std::string_view text);
 std::string_view to_string(Hint hint);
 
+/// Whether an edit is of the kind that a hint asks for: `translate` moves the part as it is; `rotate` and `shear` tilt it,
+/// by a turn, a slant, or an end that moves sideways; `scale` stretches it, from one side as well. `symmetry_cost` as in
+/// Candidate.
+bool allows(const std::optional<Hint>& hint, const ResolvedOperator& what, int symmetry_cost);
+
 struct Candidate {
   ResolvedOperator what;
   Anchor anchor = Anchor::middle;  ///< change_delta

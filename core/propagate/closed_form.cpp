@@ -59,6 +59,7 @@ std::optional<Samples> sampled(const ex& expression, const std::string& paramete
 AmountSolver::AmountSolver(const std::vector<PointConstraint>& constraints, const Edits& edits, SymbolicGoals& goals,
                            std::string parameter, const Samples& at)
     : constraints_(constraints),
+      edits_(edits),
       goals_(goals),
       parameter_(std::move(parameter)),
       at_(at),
@@ -176,7 +177,7 @@ std::optional<ClosedForm> AmountSolver::from_equation(const Candidate& candidate
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(sine[a]) > std::abs(sine[b]); });
   for (const int c : order) {
     if (std::abs(sine[c]) < 1e-6) break;
-    const ex goal = goals_(constraints_[i], static_cast<std::size_t>(c));
+    const ex goal = goals_(constraints_[i], edits_, static_cast<std::size_t>(c));
     const ex moved = rotates ? ex(number(sine[c]) * GiNaC::sin(unknown) + number(cosine[c]) * (GiNaC::cos(unknown) - 1))
                              : ex(number(sine[c]) * unknown);
     for (const ex& root : solve_for(moved - goal, unknown).roots) {
@@ -198,7 +199,7 @@ std::optional<ClosedForm> AmountSolver::from_angle(const Candidate& candidate, c
   ex y = 0;
   ex x = number(lever.squaredNorm());
   for (std::size_t c = 0; c < 3; ++c) {
-    const ex goal = goals_(constraints_[i], c);
+    const ex goal = goals_(constraints_[i], edits_, c);
     y += number(quarter[static_cast<int>(c)]) * goal;
     x += number(lever[static_cast<int>(c)]) * goal;
   }

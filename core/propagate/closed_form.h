@@ -50,6 +50,7 @@ class AmountSolver {
   std::size_t strongest(const Candidate& candidate) const;
 
   const std::vector<PointConstraint>& constraints_;
+  const Edits& edits_;
   SymbolicGoals& goals_;
   std::string parameter_;
   Samples at_;

@@ -37,7 +37,7 @@ void add_constraints(const Graph& graph, RelationIndex relation, PartIndex part,
                      std::vector<PointConstraint>& constraints) {
   const Relation& r = graph.shape().relations[relation];
   const PartIndex other = graph.other(relation, part);
-  PARSEL_ASSERT(edits[other].has_value(), "only edited parts prescribe motions");
+  PARSEL_ASSERT(edits[other] != nullptr, "only edited parts prescribe motions");
   const Motion& motion = edits[other]->motion;
   const bool is_first = r.parts[0] == part;
   const auto add = [&](const Weights& weights, const Weights& other_weights, const std::optional<Vec3>& mirror) {
@@ -82,12 +82,11 @@ RelationResiduals residuals(const std::vector<PointConstraint>& constraints, con
   return result;
 }
 
-GiNaC::ex SymbolicGoals::operator()(const PointConstraint& constraint, std::size_t coordinate) {
-  auto found = known_.find(constraint.other);
-  if (found == known_.end()) {
-    const PartEdit& edit = *(*edits_)[constraint.other];
-    found = known_.emplace(constraint.other, symbolic_motion(graph_->shape(), constraint.other, edit.steps)).first;
-  }
+GiNaC::ex SymbolicGoals::operator()(const PointConstraint& constraint, const Edits& edits, std::size_t coordinate) {
+  const std::shared_ptr<const PartEdit>& edit = edits[constraint.other];
+  auto found = known_.find(edit);
+  if (found == known_.end())
+    found = known_.emplace(edit, symbolic_motion(graph_->shape(), constraint.other, edit->steps)).first;
   const auto moved = [&](std::size_t c) {
     GiNaC::ex sum = 0;
     for (int k = 0; k < 8; ++k) {

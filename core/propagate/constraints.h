@@ -6,6 +6,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <vector>
@@ -19,8 +20,8 @@ struct PartEdit {
   std::vector<Step> steps;  ///< empty for keep_fixed
   Motion motion;
 };
-/// Only edited parts have one, keep_fixed included.
-using Edits = PartData<std::optional<PartEdit>>;
+/// Only edited parts have one, keep_fixed included. Shared, because the states of a search have most of them in common.
+using Edits = PartData<std::shared_ptr<const PartEdit>>;
 
 struct PointConstraint {
   RelationIndex relation;
@@ -63,13 +64,12 @@ RelationResiduals residuals(const std::vector<PointConstraint>& constraints, con
 /// One coordinate of a goal in closed form. Keeps the closed forms of edited parts for the next call.
 class SymbolicGoals {
  public:
-  SymbolicGoals(const Graph& graph, const Edits& edits) : graph_(&graph), edits_(&edits) {}
-  GiNaC::ex operator()(const PointConstraint& constraint, std::size_t coordinate);
+  explicit SymbolicGoals(const Graph& graph) : graph_(&graph) {}
+  GiNaC::ex operator()(const PointConstraint& constraint, const Edits& edits, std::size_t coordinate);
 
  private:
   const Graph* graph_;
-  const Edits* edits_;
-  std::map<PartIndex, SymbolicMotion> known_;
+  std::map<std::shared_ptr<const PartEdit>, SymbolicMotion> known_;
 };
 
 }  // namespace parsel

@@ -230,11 +230,33 @@ Status resolve_hints(const EditRequest& request, const Shape& shape, const std::
   return success();
 }
 
+/// Groups whose instances hang on single instances of a group that is taken apart are taken apart as well: the knobs of
+/// drawers, of which one is pulled. Not those that the request edits as one.
+void dissolve_followers(const Shape& shape, const std::set<RelationIndex>& as_group, std::set<RelationIndex>& dissolved) {
+  const auto group_of_instance = [&](PartIndex part) {
+    return shape.parts[part].is_virtual() ? std::nullopt : shape.parts[part].group;
+  };
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const Relation& relation : shape.relations) {
+      if (!relation.is_attachment()) continue;
+      const auto a = group_of_instance(relation.parts[0]), b = group_of_instance(relation.parts[1]);
+      if (!a || !b || *a == *b) continue;
+      for (const auto& [from, to] : {std::pair(*a, *b), std::pair(*b, *a)}) {
+        if (dissolved.count(from) == 0 || dissolved.count(to) > 0 || as_group.count(to) > 0) continue;
+        dissolved.insert(to);
+        grows = true;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Result<ResolvedRequest> resolve(const EditRequest& request, const Shape& shape) {
   ResolvedRequest resolved;
   if (Status s = resolve_disabled(request, shape, resolved); !s.ok()) return s.error();
+  resolved.disabled_by_name = resolved.disabled;
   std::set<RelationIndex> dissolved;
   for (const RelationIndex r : resolved.disabled) {
     if (shape.relations[r].is_group()) dissolved.insert(r);
@@ -259,6 +281,7 @@ Result<ResolvedRequest> resolve(const EditRequest& request, const Shape& shape) 
                    "group '" + shape.relations[group].id + "' is edited as one, but its instances are on their own",
                    "edit the group or its instances, not both, and do not disable a group that you edit");
   }
+  dissolve_followers(shape, as_group, dissolved);
   if (Status s = resolve_hints(request, shape, dissolved, resolved); !s.ok()) return s.error();
   resolved.dissolved.assign(dissolved.begin(), dissolved.end());
   resolved.disabled.insert(dissolved.begin(), dissolved.end());

@@ -34,7 +34,8 @@ struct ResolvedRequest {
   std::vector<Statement> seed;           ///< node:… replaced by ids
   std::vector<PartIndex> seed_parts;     ///< whose corners seed[i] moves; the parent for group operators
   std::set<RelationIndex> disabled;      ///< reflections and attachments; with the group relations that are dissolved
-  std::vector<RelationIndex> dissolved;  ///< groups that a seed on an instance, or "disabled", takes apart
+  std::set<RelationIndex> disabled_by_name;  ///< of these, the ones that the request itself disables
+  std::vector<RelationIndex> dissolved;  ///< groups that a seed on an instance, or "disabled", takes apart, with those whose instances hang on theirs
   std::map<PartIndex, Hint> hints;
 };
 

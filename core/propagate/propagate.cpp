@@ -1,8 +1,11 @@
 #include "core/propagate/propagate.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/propagate/search.h"
 #include "core/propagate/transfer.h"
 #include "core/prove/prove.h"
 #include "core/prove/range.h"
@@ -14,12 +17,11 @@ namespace {
 constexpr const char* stage = "propagate";
 /// A seed must be able to go at least this far to one side, as a share of the limit.
 constexpr double least_range = 0.02;
-/// What the search for revisions may cost, in the units of Loop::cost(): about a tenth of a second natively. Not the
-/// clock: the same input must give the same program everywhere.
-constexpr int revision_cost = 100'000;
-constexpr int most_revision_runs = 40;
-/// A part that follows an edit at the ends of a slider and changes an edge by more than this factor is distorted.
-constexpr double largest_stretch = 2.5;
+/// Parts whose lowest corner is higher than this above the lowest of all do not stand on the floor. Half-diagonals: the
+/// distance within which parts touch.
+constexpr double floor_distance = 0.01;
+/// Two motions of the whole that differ by no more than this are the same rigid one.
+constexpr double rigid_noise = 1e-5;
 
 Motion still() {
   Motion motion;
@@ -27,171 +29,57 @@ Motion still() {
   return motion;
 }
 
-/// By how much the edge that changes most has become longer, or shorter, as a factor of at least 1.
-double stretch(const Corners& rest, const Corners& deformed) {
-  double most = 1;
-  for (int k = 0; k < 8; ++k) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const int other = k ^ (1 << axis);
-      if (other < k) continue;
-      const double before = (rest.row(other) - rest.row(k)).norm(),
-                   after = (deformed.row(other) - deformed.row(k)).norm();
-      most = std::max({most, after / before, before / std::max(after, noise)});
-    }
-  }
-  return most;
-}
-
 bool is_alive(const Corners& corners, const Corners& rest) {
   return corners.allFinite() && relative_jacobians(corners, rest).minCoeff() > collapse_ratio;
 }
 
-/// Hints that nobody gave: what the search does otherwise after it has seen where its first choices lead.
-using Revisions = std::map<PartIndex, Hint>;
+/// The part's lowest corners, to which the floor is tied.
+Footing footing_of(const Corners& corners) {
+  const double lowest = corners.col(1).minCoeff();
+  Footing footing;
+  for (int k = 0; k < 8; ++k) {
+    if (corners(k, 1) > lowest + floor_distance) continue;
+    Weights weights = Weights::Zero();
+    weights[k] = 1;
+    footing.points.push_back(weights);
+  }
+  return footing;
+}
 
-class Loop {
+/// The rigid motion that takes `before` nearest to `after` (Kabsch 1976).
+std::pair<Mat3, Vec3> rigid_motion(const Corners& before, const Corners& after) {
+  const Vec3 a = before.colwise().mean().transpose(), b = after.colwise().mean().transpose();
+  const Mat3 covariance = (before.rowwise() - a.transpose()).transpose() * (after.rowwise() - b.transpose());
+  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Mat3 v = svd.matrixV();
+  if ((v * svd.matrixU().transpose()).determinant() < 0) v.col(2) *= -1;
+  const Mat3 rotation = v * svd.matrixU().transpose();
+  return {rotation, b - rotation * a};
+}
+
+class Propagator {
  public:
-  Loop(const Shape& shape, const ResolvedRequest& request, const Revisions& revisions, const PropagateOptions& options,
-       const Progress& progress)
+  Propagator(const Shape& shape, const ResolvedRequest& request, const PropagateOptions& options,
+             const Progress& progress)
       : shape_(shape),
         request_(request),
-        revisions_(revisions),
         options_(options),
         progress_(progress),
         graph_(shape, request_.dissolved, request_.disabled),
-        edits_(shape.parts.size()),
-        pulls_(shape.parts.size()),
-        goals_(graph_, edits_) {
-    solve_options_.neighbour_edits = options.neighbour_edits;
-    solve_options_.breaking_edits = options.breaking_edits;
-    solve_options_.exact = exact;
-    solve_options_.one_edited = delta_one_edited;
-    solve_options_.both_edited = delta_both_edited;
+        goals_(graph_),
+        seeds_(shape.parts.size()) {
     layer_.request = options.request;
   }
 
-  /// Finds the edits. Once.
-  Status search() {
-    if (Status status = apply_seeds(); !status.ok()) return status;
-    hold_fixed_parts();
-    int done = static_cast<int>(layer_.statements.size());
-    const int total = static_cast<int>(graph_.parts().size());
-    while (const auto next = next_part()) {
-      report(progress_, shape_.parts[*next].name, std::min(done++, total), total);
-      edit_part(*next);
-    }
-    return success();
-  }
-
-  /// Relations that the edits found leave broken.
-  std::vector<RelationIndex> broken_relations() const {
-    std::vector<RelationIndex> broken;
-    for (const PartIndex part : graph_.parts()) {
-      if (!edits_[part]) continue;
-      for (const RelationIndex relation : graph_.relations(part)) {
-        const PartIndex other = graph_.other(relation, part);
-        if (edits_[other] && other < part) continue;
-        std::vector<PointConstraint> constraints;
-        add_constraints(graph_, relation, other, edits_, constraints);
-        const bool both = edits_[other] && !edits_[other]->steps.empty() && !edits_[part]->steps.empty();
-        const Motion motion = edits_[other] ? edits_[other]->motion : still();
-        if (residuals(constraints, motion)[0].second > (both ? delta_both_edited : delta_one_edited))
-          broken.push_back(relation);
-      }
-    }
-    return broken;
-  }
-
-  /// Parts that the search stretches or squeezes beyond what anyone would want, though it keeps their relations: a
-  /// bed's legs that grow five times as thick.
-  std::vector<PartIndex> distorted_parts() const {
-    std::vector<PartIndex> distorted;
-    for (const PartIndex part : graph_.parts()) {
-      if (!edits_[part] || is_seed(part)) continue;
-      const std::vector<Step>& steps = edits_[part]->steps;
-      // A row that spreads keeps its instances as they are.
-      if (std::any_of(steps.begin(), steps.end(), [](const Step& step) { return !is_geometric(step.what.op); }))
-        continue;
-      const Corners& rest = shape_.parts[part].hexahedron.corners;
-      const auto& motion = edits_[part]->motion;
-      if (std::max(stretch(rest, rest + motion.front()), stretch(rest, rest + motion.back())) > largest_stretch)
-        distorted.push_back(part);
-    }
-    return distorted;
-  }
-
-  /// What a second look tries to lessen: broken relations first, then distorted parts.
-  using Faults = std::pair<std::size_t, std::size_t>;
-  Faults faults() const { return {broken_relations().size(), distorted_parts().size()}; }
-
-  /// How much work the search was, about 1000 a millisecond.
-  int cost() const {
-    int cost = 1;
-    for (const TraceStep& step : trace_.steps)
-      cost += step.own_candidates + step.neighbour_candidates + 4 * step.pairs + 100 * step.solved;
-    return cost;
-  }
-
-  /// Hints that might have served better: for the parts that the search edited by itself, up to two relations away from
-  /// a fault, to be stretched where they were moved, and the other way round.
-  std::vector<std::pair<PartIndex, Hint>> possible_revisions() const {
-    std::set<PartIndex> near;
-    for (const RelationIndex relation : broken_relations())
-      near.insert(shape_.relations[relation].parts.begin(), shape_.relations[relation].parts.end());
-    for (const PartIndex part : distorted_parts()) near.insert(part);
-    for (const PartIndex part : std::set<PartIndex>(near)) {
-      for (const RelationIndex relation : graph_.relations(part)) near.insert(graph_.other(relation, part));
-    }
-    std::vector<std::pair<PartIndex, Hint>> possible;
-    for (const PartIndex part : graph_.parts()) {
-      if (!edits_[part] || near.count(part) == 0 || request_.hints.count(part) > 0 || revisions_.count(part) > 0)
-        continue;
-      if (is_seed(part)) continue;
-      const auto uses = [&](Op op) {
-        const std::vector<Step>& steps = edits_[part]->steps;
-        return std::any_of(steps.begin(), steps.end(), [op](const Step& step) { return step.what.op == op; });
-      };
-      if (!uses(Op::scale_1d)) possible.emplace_back(part, Hint::scale);
-      if (!uses(Op::translate)) possible.emplace_back(part, Hint::translate);
-    }
-    return possible;
-  }
-
-  /// The program and its proof. After search(), once.
-  Propagation finish() {
-    note_fixed_parts();
-    note_unused_hints();
-    say_why_it_stopped();
-    Propagation result;
-    result.program.shape_name = shape_.name;
-    result.program.shape_sha256 = shape_.sha256;
-    layer_.parameter = {options_.parameter, at_.front(), at_.back(), 0};
-    result.program.layers.push_back(std::move(layer_));
-    Layer& layer = result.program.layers[0];
-    report(progress_, "finding the range", 0, 2);
-    const Range range = find_range(shape_, result.program, 0, options_.limit);
-    layer.parameter.min = range.min;
-    layer.parameter.max = range.max;
-    std::set<std::string> disabled;
-    for (const RelationIndex relation : request_.disabled) disabled.insert(id(relation));
-    report(progress_, "proving the relations", 1, 2);
-    layer.relations = prove_relations(shape_, result.program, 0, disabled);
-
-    trace_.parameter = options_.parameter;
-    trace_.samples.assign(at_.begin(), at_.end());
-    trace_.exact = exact;
-    trace_.one_edited = delta_one_edited;
-    trace_.both_edited = delta_both_edited;
-    for (const RelationIndex relation : request_.dissolved) trace_.dissolved.push_back(id(relation));
-    trace_.disabled.assign(disabled.begin(), disabled.end());
-    result.trace = std::move(trace_);
-    return result;
+  Result<Propagation> run() {
+    if (Status status = apply_seeds(); !status.ok()) return status.error();
+    const SearchState found = find();
+    write(found);
+    return finish(found);
   }
 
  private:
-  bool is_seed(PartIndex part) const {
-    return std::find(request_.seed_parts.begin(), request_.seed_parts.end(), part) != request_.seed_parts.end();
-  }
+  bool is_seed(PartIndex part) const { return seeds_[part] != nullptr; }
   const std::string& id(PartIndex part) const { return shape_.parts[part].id; }
   const std::string& id(RelationIndex relation) const { return shape_.relations[relation].id; }
 
@@ -222,16 +110,13 @@ class Loop {
       trace.kind = "seed";
       trace.statements = indices[part];
       trace.why = "the edit asked for";
-      edits_[part] = PartEdit{steps[part], motion_of(shape_, part, steps[part])};
+      seeds_[part] = std::make_shared<const PartEdit>(PartEdit{steps[part], motion_of(shape_, part, steps[part])});
       trace_.steps.push_back(std::move(trace));
     }
-    for (const PartIndex part : parts) pull_neighbours(part);
     note_conflicts_of_seeds(parts);
     return success();
   }
 
-  /// The samples of the search lie where the seeds make sense: amounts defined, their parts neither inverted nor
-  /// collapsed.
   Status find_working_range(const std::vector<PartIndex>& parts, const PartData<std::vector<Step>>& steps) {
     constexpr int batches = 8;
     constexpr int grid = batches * static_cast<int>(sample_count);
@@ -277,210 +162,299 @@ class Loop {
     for (const PartIndex part : parts) {
       for (const RelationIndex relation : graph_.relations(part)) {
         const PartIndex other = graph_.other(relation, part);
-        if (other < part || !edits_[other]) continue;
+        if (other < part || !seeds_[other]) continue;
         std::vector<PointConstraint> constraints;
-        add_constraints(graph_, relation, part, edits_, constraints);
-        if (residuals(constraints, edits_[part]->motion)[0].second <= delta_both_edited) continue;
+        add_constraints(graph_, relation, part, seeds_, constraints);
+        if (residuals(constraints, seeds_[part]->motion)[0].second <= delta_both_edited) continue;
         trace_.notes.push_back("the seed edits of " + id(part) + " and " + id(other) + " break " + id(relation) +
                                " between them");
       }
     }
   }
 
-  // ----- parts that a hint holds
+  // ----- the search
 
-  void hold_fixed_parts() {
-    for (const auto& [part, hint] : request_.hints) {
-      if (hint != Hint::keep_fixed || edits_[part] || !is_in_graph(part)) continue;
-      edits_[part] = PartEdit{{}, still()};
-      held_.push_back(part);
+  Scene scene(const Restriction& restriction) {
+    SolveOptions solve;
+    solve.neighbour_edits = options_.neighbour_edits;
+    solve.breaking_edits = options_.breaking_edits;
+    Scene scene{graph_,
+                goals_,
+                options_.parameter,
+                at_,
+                solve,
+                RelationData<std::optional<Contact>>(shape_.relations.size()),
+                PartData<std::optional<Footing>>(shape_.parts.size())};
+    for (const RelationIndex r : shape_.relations.indices()) {
+      const Relation& relation = shape_.relations[r];
+      if (!relation.is_attachment()) continue;
+      scene.contacts[r] = contact_of(shape_.parts[relation.parts[0]].hexahedron.corners,
+                                     shape_.parts[relation.parts[1]].hexahedron.corners);
     }
-    // Their neighbours must respect them, but nothing is broken by them yet.
-    for (const PartIndex part : held_) pull_neighbours(part);
+    for (const PartIndex part : standing()) {
+      scene.footings[part] = footing_of(shape_.parts[part].hexahedron.corners);
+      if (restriction.feet_stay) scene.footings[part]->mask = Vec3::Ones();
+    }
+    return scene;
   }
 
-  /// A held part that an edited neighbour pulls at gets its keep_fixed, so that the program shows the decision.
-  void note_fixed_parts() {
-    for (const PartIndex part : held_) {
-      std::vector<PointConstraint> constraints;
-      for (const RelationIndex relation : graph_.relations(part)) {
-        const PartIndex other = graph_.other(relation, part);
-        if (edits_[other] && !edits_[other]->steps.empty())
-          add_constraints(graph_, relation, part, edits_, constraints);
-      }
-      const RelationResiduals off = residuals(constraints, still());
-      TraceStep trace;
-      trace.part = id(part);
-      trace.kind = "keep_fixed";
-      trace.hint = "keep_fixed";
-      for (const auto& [relation, by] : off) {
-        trace.pulled_by.push_back({id(relation), by});
-        if (by > delta_one_edited) trace.left_broken.push_back(id(relation));
-      }
-      trace.result = trace.pulled_by;
-      trace.why = "a hint keeps it fixed";
-      if (!trace.left_broken.empty()) {
-        Why why{WhyKind::breaking, trace.left_broken};
-        trace.statements.push_back(add_keep_fixed(part, std::move(why)));
-      }
-      trace_.steps.push_back(std::move(trace));
+  /// Parts that stand on the floor.
+  std::vector<PartIndex> standing() const {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Part& part : shape_.parts) lowest = std::min(lowest, part.hexahedron.corners.col(1).minCoeff());
+    std::vector<PartIndex> parts;
+    for (const PartIndex part : graph_.parts()) {
+      if (shape_.parts[part].hexahedron.corners.col(1).minCoeff() <= lowest + floor_distance) parts.push_back(part);
     }
+    return parts;
   }
 
-  void note_unused_hints() {
+  /// Parts that a hint keeps fixed.
+  std::set<PartIndex> held() const {
+    std::set<PartIndex> parts;
     for (const auto& [part, hint] : request_.hints) {
-      const std::string words = "the hint " + std::string(to_string(hint)) + " for " + id(part);
-      if (!is_in_graph(part)) {
-        trace_.notes.push_back(words + " has no effect: the group is dissolved");
-      } else if (std::find(request_.seed_parts.begin(), request_.seed_parts.end(), part) != request_.seed_parts.end()) {
-        trace_.notes.push_back(words + " has no effect: the part has a seed edit");
+      if (hint == Hint::keep_fixed && !is_seed(part) && is_in_graph(part)) parts.insert(part);
+    }
+    return parts;
+  }
+
+  /// The cheapest state of three searches. The first is free. What it finds may be to move everything as one, or to
+  /// lift the feet: so others are tried in which feet stay where they are, and in which only what hangs on the seeds
+  /// alone follows them.
+  SearchState find() {
+    Restriction free;
+    free.held = held();
+    SearchOptions narrow;
+    narrow.width = 1;
+    const Scene first = scene(free);
+    constexpr double no_limit = std::numeric_limits<double>::infinity();
+    SearchState best = *search(first, seeds_, request_.hints, free, narrow, no_limit, progress_);
+    double cost = total(first, best);
+    if (best.loss <= harmless && !moves_as_one(best)) return best;
+    if (!options_.beam) return best;
+    const auto consider = [&](const Restriction& restriction) {
+      const Scene other = scene(restriction);
+      const auto found =
+          search(other, seeds_, request_.hints, restriction, SearchOptions{}, cost - cheaper_by, progress_);
+      if (!found) return;
+      const double price = total(other, *found);
+      if (price >= cost - cheaper_by) return;
+      best = *found;
+      cost = price;
+    };
+    consider(free);
+    if (cost <= harmless) return best;
+    Restriction feet = free;
+    feet.feet_stay = true;
+    consider(feet);
+    Restriction standing_parts = free;
+    for (const PartIndex part : standing()) {
+      if (!is_seed(part)) standing_parts.held.insert(part);
+    }
+    if (standing_parts.held.size() > free.held.size()) consider(standing_parts);
+    Restriction body = free;
+    const std::set<PartIndex> stays = parts_beyond_seeds();
+    body.held.insert(stays.begin(), stays.end());
+    if (body.held.size() > free.held.size()) consider(body);
+    return best;
+  }
+
+  /// Relations are off by so little in all that no other search is worth its time: two tenths of a joint that slides.
+  static constexpr double harmless = 0.3;
+  /// Another search must be cheaper by this, so that equals do not change places with rounding.
+  static constexpr double cheaper_by = 1e-6;
+
+  double total(const Scene& scene, const SearchState& state) const {
+    return state.cost + (moves_as_one(state) ? scene.options.prices.all_rigid : 0);
+  }
+
+  /// Whether every part moves, and all by one rigid motion: nothing has changed but the place. Not where all parts are
+  /// seeds.
+  bool moves_as_one(const SearchState& state) const {
+    const PartIndex* first = nullptr;
+    bool all_seeds = true;
+    std::size_t tied = 0;
+    for (const PartIndex& part : graph_.parts()) {
+      if (graph_.relations(part).empty() && !is_seed(part)) continue;
+      ++tied;
+      if (!state.edits[part] || state.edits[part]->steps.empty()) return false;
+      all_seeds = all_seeds && is_seed(part);
+      if (first == nullptr) first = &part;
+    }
+    if (first == nullptr || all_seeds || tied < 2) return false;
+    for (const std::size_t s : {std::size_t{0}, sample_count - 1}) {
+      const Corners& rest = shape_.parts[*first].hexahedron.corners;
+      const auto [rotation, shift] = rigid_motion(rest, rest + state.edits[*first]->motion[s]);
+      for (const PartIndex part : graph_.parts()) {
+        if (!state.edits[part]) continue;
+        const Corners& before = shape_.parts[part].hexahedron.corners;
+        const Corners moved = (before * rotation.transpose()).rowwise() + shift.transpose();
+        if ((moved - before - state.edits[part]->motion[s]).cwiseAbs().maxCoeff() > rigid_noise) return false;
       }
     }
+    return true;
+  }
+
+  /// The neighbours of the seeds that belong to the body of the model: what is left of the graph of joints without the
+  /// seeds falls into pieces; a piece stays when it stands on the floor, or when it is the largest.
+  std::set<PartIndex> parts_beyond_seeds() const {
+    const std::vector<PartIndex> feet = standing();
+    PartData<int> piece(shape_.parts.size(), -1);
+    std::vector<double> size;
+    std::vector<bool> stands;
+    for (const PartIndex start : graph_.parts()) {
+      if (is_seed(start) || piece[start] >= 0) continue;
+      const int number = static_cast<int>(size.size());
+      size.push_back(0);
+      stands.push_back(false);
+      std::vector<PartIndex> open = {start};
+      piece[start] = number;
+      while (!open.empty()) {
+        const PartIndex part = open.back();
+        open.pop_back();
+        const Corners& corners = shape_.parts[part].hexahedron.corners;
+        size.back() += (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).norm();
+        stands.back() = stands.back() || std::find(feet.begin(), feet.end(), part) != feet.end();
+        for (const RelationIndex r : graph_.relations(part)) {
+          const PartIndex other = graph_.other(r, part);
+          if (!shape_.relations[r].is_attachment() || is_seed(other) || piece[other] >= 0) continue;
+          piece[other] = number;
+          open.push_back(other);
+        }
+      }
+    }
+    std::set<PartIndex> stays;
+    if (size.empty()) return stays;
+    const auto largest = std::max_element(size.begin(), size.end()) - size.begin();
+    for (const PartIndex part : graph_.parts()) {
+      if (!is_seed(part)) continue;
+      for (const RelationIndex r : graph_.relations(part)) {
+        const PartIndex other = graph_.other(r, part);
+        if (is_seed(other) || !shape_.relations[r].is_attachment()) continue;
+        const int number = piece[other];
+        if (number == largest || stands[static_cast<std::size_t>(number)]) stays.insert(other);
+      }
+    }
+    return stays;
   }
 
   bool is_in_graph(PartIndex part) const {
     return std::find(graph_.parts().begin(), graph_.parts().end(), part) != graph_.parts().end();
   }
 
-  // ----- the loop
+  // ----- from the decisions to statements and trace
 
-  void pull_neighbours(PartIndex part) {
-    for (const RelationIndex relation : graph_.relations(part)) {
-      const PartIndex other = graph_.other(relation, part);
-      if (!edits_[other]) add_constraints(graph_, relation, other, edits_, pulls_[other]);
-    }
-  }
-
-  /// The unedited part with the most broken relations; one with a broken symmetry before any without.
-  std::optional<PartIndex> next_part() const {
-    std::optional<PartIndex> best;
-    std::pair<bool, int> most{false, 0};
+  void write(const SearchState& state) {
+    std::vector<const Decision*> decisions;
+    for (const Decision* d = state.last.get(); d != nullptr; d = d->before.get()) decisions.push_back(d);
+    std::reverse(decisions.begin(), decisions.end());
+    std::vector<PartIndex> edited;
     for (const PartIndex part : graph_.parts()) {
-      if (edits_[part] ||
-          std::find(left_alone_.begin(), left_alone_.end(), std::pair(part, pulls_[part].size())) != left_alone_.end())
-        continue;
-      std::pair<bool, int> broken{false, 0};
-      for (const auto& [relation, by] : residuals(pulls_[part], still())) {
-        if (by <= exact) continue;
-        broken.first = broken.first || is_side_by_side(relation);
-        ++broken.second;
-      }
-      if (broken.second == 0) continue;
-      if (!best || broken > most || (broken == most && id(part) < id(*best))) {
-        best = part;
-        most = broken;
-      }
+      if (is_seed(part)) edited.push_back(part);
     }
-    return best;
+    held_.clear();
+    for (const PartIndex part : graph_.parts()) {
+      const auto decides = [part](const Decision* d) { return d->part == part && !d->left_alone; };
+      if (state.edits[part] && !is_seed(part) && std::none_of(decisions.begin(), decisions.end(), decides))
+        held_.insert(part);
+    }
+    for (const Decision* decision : decisions) {
+      write(*decision, edited, state.edits);
+      if (!decision->left_alone) edited.push_back(decision->part);
+    }
+    for (const PartIndex part : held_) write_held(part, state.edits);
+    show_dissolved_groups();
   }
 
-  /// A symmetry, but for mirror images one above the other: what stands on the floor grows away from it, and its upper
-  /// half is seldom asked to do the opposite of the lower one.
-  bool is_side_by_side(RelationIndex relation) const {
-    const auto* mirror = std::get_if<Reflection>(&shape_.relations[relation].detail);
-    return shape_.relations[relation].is_symmetry() && !(mirror != nullptr && std::abs(mirror->normal.y()) > 0.5);
-  }
-
-  void edit_part(PartIndex part) {
-    TraceStep trace;
-    trace.part = id(part);
-    std::optional<Hint> hint;
-    if (const auto found = request_.hints.find(part); found != request_.hints.end()) {
-      hint = found->second;
-      trace.hint = to_string(*hint);
-    } else if (const auto revision = revisions_.find(part); revision != revisions_.end()) {
-      hint = revision->second;
+  void write(const Decision& decision, const std::vector<PartIndex>& edited, const Edits& edits) {
+    const PartIndex part = decision.part;
+    TraceStep trace = decision.trace;
+    Edits before(shape_.parts.size());
+    for (const PartIndex other : edited) before[other] = edits[other];
+    for (const PartIndex other : graph_.parts()) {
+      if (held_.count(other) > 0) before[other] = edits[other];
     }
-    const std::vector<PointConstraint>& constraints = pulls_[part];
+    std::vector<PointConstraint> constraints;
+    for (const RelationIndex relation : graph_.relations(part)) {
+      if (before[graph_.other(relation, part)]) add_constraints(graph_, relation, part, before, constraints);
+    }
+    const bool moves = !decision.chosen.rest;
+    const double allowed = moves ? delta_both_edited : delta_one_edited;
     std::vector<std::string> broken;
-    for (const auto& [relation, by] : residuals(constraints, still())) {
-      trace.pulled_by.push_back({id(relation), by});
-      if (by > exact) broken.push_back(id(relation));
+    for (const auto& pulled : trace.pulled_by) {
+      if (pulled.by > exact) broken.push_back(pulled.relation);
     }
-    Solution solution;
-    const std::vector<PartIndex> sources = reference_parts(part);
-    const auto mirrored = mirror_neighbour(part);
-    if (mirrored && mirrored->lost == 0) {
-      solution = mirrored->solution;
-      trace.why = mirrored->why;
-    } else {
-      const Scene scene{graph_, edits_, goals_, options_.parameter, at_, solve_options_};
-      solution = solve_part(scene, part, hint, constraints, trace);
-      // A mirror image that tears as many joints as it keeps symmetries is none that anyone wants.
-      if (mirrored && mirrored->lost < lost_with(part, solution.steps)) {
-        solution = mirrored->solution;
-        trace.why = mirrored->why;
-      }
-    }
-    if (solution.outcome == Outcome::left_alone) {
-      trace.kind = "left_alone";
-      trace.result = trace.pulled_by;
-      left_alone_.emplace_back(part, constraints.size());
-      trace_.steps.push_back(std::move(trace));
-      return;
-    }
-    const Motion motion = motion_of(shape_, part, solution.steps);
-    // A part that stays is one that is not edited, whose tolerance is the narrower.
-    const double allowed = solution.steps.empty() ? delta_one_edited : delta_both_edited;
-    for (const auto& [relation, by] : residuals(constraints, motion)) {
+    double worst = 0;
+    for (const auto& [relation, by] : residuals(constraints, decision.chosen.motion)) {
       trace.result.push_back({id(relation), by});
-      if (by > allowed) trace.left_broken.push_back(id(relation));
+      worst = std::max(worst, by);
+      if (by > allowed && !decision.left_alone) trace.left_broken.push_back(id(relation));
     }
-    if (solution.outcome == Outcome::keep_fixed) {
+    trace.why = decision.chosen.why;
+    trace.energy = decision.chosen.cost;
+    trace.tolerance = worst <= exact ? exact : delta_both_edited;
+    if (decision.left_alone) {
+      trace.kind = "left_alone";
+    } else if (decision.chosen.rest) {
       trace.kind = "keep_fixed";
       trace.statements.push_back(add_keep_fixed(part, Why{WhyKind::breaking, trace.left_broken}));
     } else {
-      trace.kind = kind_name(solution.kind);
-      for (const Step& step : solution.steps) {
+      trace.kind = to_string(decision.chosen.kind);
+      const std::vector<PartIndex> sources = reference_parts(part, edited);
+      for (const Step& step : decision.chosen.steps) {
         Statement statement = to_statement(shape_, part, step, sources);
-        statement.why = Why{solution.kind, broken};
+        statement.why = Why{decision.chosen.kind, broken};
         trace.statements.push_back(static_cast<int>(layer_.statements.size()));
         layer_.statements.push_back(std::move(statement));
       }
     }
-    edits_[part] = PartEdit{std::move(solution.steps), motion};
     trace_.steps.push_back(std::move(trace));
-    pull_neighbours(part);
   }
 
-  struct Mirrored {
-    Solution solution;
-    int lost = 0;  ///< relations to edited parts that it breaks
-    std::string why;
-  };
-
-  /// E* = T(E), of the first edited neighbour by reflection that has a mirror image here.
-  std::optional<Mirrored> mirror_neighbour(PartIndex part) const {
-    for (const auto& [relation, by] : residuals(pulls_[part], still())) {
-      if (by <= exact || shape_.relations[relation].kind != RelationKind::reflection) continue;
+  /// A held part that an edited neighbour pulls at gets its keep_fixed, so that the program shows the decision.
+  void write_held(PartIndex part, const Edits& edits) {
+    std::vector<PointConstraint> constraints;
+    for (const RelationIndex relation : graph_.relations(part)) {
       const PartIndex other = graph_.other(relation, part);
-      auto steps = reflected(shape_, shape_.relations[relation], other, edits_[other]->steps);
-      if (!steps) continue;
-      const int lost = lost_with(part, *steps);
-      return Mirrored{{Outcome::solved, WhyKind::symmetry, std::move(*steps)},
-                      lost,
-                      "mirrors " + id(other) + " (" + id(relation) + ")"};
+      if (edits[other] && !edits[other]->steps.empty()) add_constraints(graph_, relation, part, edits, constraints);
     }
-    return std::nullopt;
+    TraceStep trace;
+    trace.part = id(part);
+    trace.kind = "keep_fixed";
+    trace.held = true;
+    const bool by_hint = request_.hints.count(part) > 0;
+    if (by_hint) trace.hint = "keep_fixed";
+    for (const auto& [relation, by] : residuals(constraints, still())) {
+      trace.pulled_by.push_back({id(relation), by});
+      if (by > delta_one_edited) trace.left_broken.push_back(id(relation));
+    }
+    trace.result = trace.pulled_by;
+    trace.why = by_hint ? "a hint keeps it fixed" : "it belongs to the body of the model, which stays";
+    if (!trace.left_broken.empty()) {
+      Why why{WhyKind::breaking, trace.left_broken};
+      trace.statements.push_back(add_keep_fixed(part, std::move(why)));
+    }
+    trace_.steps.push_back(std::move(trace));
   }
 
-  /// Relations of the part to edited parts that these steps break.
-  int lost_with(PartIndex part, const std::vector<Step>& steps) const {
-    const double allowed = steps.empty() ? delta_one_edited : delta_both_edited;
-    int lost = 0;
-    for (const auto& [relation, by] : residuals(pulls_[part], motion_of(shape_, part, steps))) lost += by > allowed;
-    return lost;
-  }
-
-  /// Whose points and axes a statement on the part may name, the nearest first: the part's own, its neighbours', those
-  /// of the parts that are edited already.
-  std::vector<PartIndex> reference_parts(PartIndex part) const {
-    std::vector<PartIndex> sources = {part};
-    for (const RelationIndex relation : graph_.relations(part)) sources.push_back(graph_.other(relation, part));
-    for (const PartIndex other : graph_.parts()) {
-      if (edits_[other]) sources.push_back(other);
+  /// A program shows that a group is taken apart by a statement on one of its instances.
+  void show_dissolved_groups() {
+    for (const RelationIndex group : request_.dissolved) {
+      const std::vector<PartIndex>& instances = shape_.relations[group].parts;
+      const auto is_named = [&](const Statement& s) {
+        return std::any_of(instances.begin(), instances.end(), [&](PartIndex p) { return s.part == id(p); });
+      };
+      const auto& statements = layer_.statements;
+      if (request_.disabled_by_name.count(group) > 0) continue;
+      if (std::any_of(statements.begin(), statements.end(), is_named)) continue;
+      TraceStep trace;
+      trace.part = id(instances[0]);
+      trace.kind = "keep_fixed";
+      trace.held = true;
+      trace.why = "its group is taken apart, and nothing pulls at it";
+      trace.statements.push_back(add_keep_fixed(instances[0], Why{WhyKind::group, {}}));
+      trace_.steps.push_back(std::move(trace));
     }
-    return sources;
   }
 
   int add_keep_fixed(PartIndex part, Why why) {
@@ -492,32 +466,64 @@ class Loop {
     return static_cast<int>(layer_.statements.size()) - 1;
   }
 
-  static std::string kind_name(WhyKind kind) {
-    switch (kind) {
-      case WhyKind::seed:
-        return "seed";
-      case WhyKind::symmetry:
-        return "symmetry";
-      case WhyKind::attachment:
-        return "attachment";
-      case WhyKind::neighbour:
-        return "neighbour";
-      case WhyKind::breaking:
-        return "breaking";
-      case WhyKind::group:
-        return "group";
-    }
-    return "";
+  /// Whose points and axes a statement on the part may name, the nearest first: the part's own, its neighbours', those
+  /// of the parts that are edited already.
+  std::vector<PartIndex> reference_parts(PartIndex part, const std::vector<PartIndex>& edited) const {
+    std::vector<PartIndex> sources = {part};
+    for (const RelationIndex relation : graph_.relations(part)) sources.push_back(graph_.other(relation, part));
+    sources.insert(sources.end(), edited.begin(), edited.end());
+    return sources;
   }
 
   // ----- the end
 
-  void say_why_it_stopped() {
+  Propagation finish(const SearchState& found) {
+    note_unused_hints();
+    say_why_it_stopped(found);
+    Propagation result;
+    result.program.shape_name = shape_.name;
+    result.program.shape_sha256 = shape_.sha256;
+    layer_.parameter = {options_.parameter, at_.front(), at_.back(), 0};
+    result.program.layers.push_back(std::move(layer_));
+    Layer& layer = result.program.layers[0];
+    report(progress_, "finding the range", 0, 2);
+    const Range range = find_range(shape_, result.program, 0, options_.limit);
+    layer.parameter.min = range.min;
+    layer.parameter.max = range.max;
+    std::set<std::string> disabled;
+    for (const RelationIndex relation : request_.disabled) disabled.insert(id(relation));
+    report(progress_, "proving the relations", 1, 2);
+    layer.relations = prove_relations(shape_, result.program, 0, disabled);
+
+    trace_.parameter = options_.parameter;
+    trace_.samples.assign(at_.begin(), at_.end());
+    trace_.exact = exact;
+    trace_.one_edited = delta_one_edited;
+    trace_.both_edited = delta_both_edited;
+    for (const RelationIndex relation : request_.dissolved) trace_.dissolved.push_back(id(relation));
+    trace_.disabled.assign(disabled.begin(), disabled.end());
+    result.trace = std::move(trace_);
+    return result;
+  }
+
+  void note_unused_hints() {
+    for (const auto& [part, hint] : request_.hints) {
+      const std::string words = "the hint " + std::string(to_string(hint)) + " for " + id(part);
+      if (!is_in_graph(part)) {
+        trace_.notes.push_back(words + " has no effect: the group is dissolved");
+      } else if (is_seed(part)) {
+        trace_.notes.push_back(words + " has no effect: the part has a seed edit");
+      }
+    }
+  }
+
+  void say_why_it_stopped(const SearchState& found) {
     std::size_t edited = 0;
     bool touches = false;
     for (const PartIndex part : graph_.parts()) {
-      edited += edits_[part].has_value();
-      touches = touches || !pulls_[part].empty();
+      edited += found.edits[part] != nullptr;
+      for (const RelationIndex relation : graph_.relations(part))
+        touches = touches || (found.edits[part] && graph_.other(relation, part) != part);
     }
     if (edited == graph_.parts().size()) {
       trace_.stop = "every part is edited";
@@ -530,54 +536,16 @@ class Loop {
 
   const Shape& shape_;
   const ResolvedRequest& request_;
-  const Revisions& revisions_;
   PropagateOptions options_;
   const Progress& progress_;
-  SolveOptions solve_options_;
   Graph graph_;
-  Edits edits_;
-  PartData<std::vector<PointConstraint>> pulls_;  ///< constraints of unedited parts by edited ones
   SymbolicGoals goals_;
+  Edits seeds_;
   Samples at_{};
-  std::vector<PartIndex> held_;
-  std::vector<std::pair<PartIndex, std::size_t>> left_alone_;  ///< with the number of constraints seen
+  std::set<PartIndex> held_;  ///< parts that stay without having been decided upon
   Layer layer_;
   Trace trace_;
 };
-
-/// The revisions with the fewest faults, found greedily. The search takes one part after the other and never
-/// looks back; a part that it moved with its first edited neighbour often must stretch once the neighbour at its other
-/// end is known.
-Revisions find_revisions(const Shape& shape, const ResolvedRequest& request, const PropagateOptions& options,
-                         const Loop& first, const Loop::Faults& faults_of_first, const Progress& progress) {
-  int budget = std::min(revision_cost / first.cost(), most_revision_runs);
-  const Progress silent;
-  Revisions chosen;
-  Loop::Faults fewest = faults_of_first;
-  auto possible = first.possible_revisions();
-  const int total = budget;
-  while (fewest > Loop::Faults{} && budget > 0) {
-    std::optional<Revisions> better;
-    std::vector<std::pair<PartIndex, Hint>> next;
-    for (const auto& [part, hint] : possible) {
-      if (budget-- <= 0) break;
-      report(progress, "looking for a way that keeps more", total - budget, total);
-      Revisions tried = chosen;
-      tried[part] = hint;
-      Loop loop(shape, request, tried, options, silent);
-      if (!loop.search().ok()) continue;
-      const Loop::Faults faults = loop.faults();
-      if (faults >= fewest) continue;
-      fewest = faults;
-      better = std::move(tried);
-      next = loop.possible_revisions();
-    }
-    if (!better) break;
-    chosen = std::move(*better);
-    possible = std::move(next);
-  }
-  return chosen;
-}
 
 }  // namespace
 
@@ -585,27 +553,7 @@ Result<Propagation> propagate(const Shape& shape, const EditRequest& request, co
                               const Progress& progress) {
   const auto resolved = resolve(request, shape);
   if (!resolved.ok()) return resolved.error();
-  const Revisions none;
-  Loop first(shape, *resolved, none, options, progress);
-  if (const Status found = first.search(); !found.ok()) return found.error();
-  if (!options.revisions) return first.finish();
-  const Loop::Faults before = first.faults();
-  const Revisions revisions =
-      before == Loop::Faults{} ? none : find_revisions(shape, *resolved, options, first, before, progress);
-  if (revisions.empty()) return first.finish();
-  Loop second(shape, *resolved, revisions, options, progress);
-  if (const Status found = second.search(); !found.ok()) return found.error();
-  const Loop::Faults after = second.faults();
-  const std::string gain = before.first > after.first
-                               ? std::to_string(before.first - after.first) + " more relations are kept"
-                               : std::to_string(before.second - after.second) + " fewer parts are distorted";
-  Propagation result = second.finish();
-  for (const auto& [part, hint] : revisions) {
-    result.trace.notes.push_back("a second look: " + shape.parts[part].id +
-                                 (hint == Hint::scale ? " is not moved, so that " : " is not stretched, so that ") +
-                                 gain);
-  }
-  return result;
+  return Propagator(shape, *resolved, options, progress).run();
 }
 
 }  // namespace parsel

@@ -39,7 +39,7 @@ struct PropagateOptions {
   double limit = tau;            ///< the range sought is within ±limit
   bool neighbour_edits = true;   ///< off for the ablation of ParSEL §7.3
   bool breaking_edits = true;    ///< likewise
-  bool revisions = true;         ///< likewise: a second look at parts near relations that stay broken
+  bool beam = true;              ///< likewise: more than one state, and searches in which feet or the body stay
 };
 
 struct Propagation {

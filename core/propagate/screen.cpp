@@ -29,7 +29,7 @@ std::optional<Fit> fit_linear(const Candidate& candidate, const Rows& rows, doub
   Vec3* v = rows.size() > capacity ? many.data() : few.data();
   double square = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    v[i] = rows.at(i, candidate.field);
+    v[i] = rows.masked(i, rows.at(i, candidate.field));
     square += v[i].squaredNorm();
   }
   if (square < shortest_field * shortest_field) return std::nullopt;
@@ -55,6 +55,7 @@ std::optional<Fit> fit_rotation(const Candidate& candidate, const Rows& rows, do
   Vec3 lever = Vec3::Zero();
   std::size_t longest = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows.is_free(i)) continue;
     const Vec3 v = rows.at(i, candidate.field);
     const Vec3 across = v - axis.dot(v) * axis;
     if (across.norm() <= lever.norm() * (1 + 1e-9)) continue;
@@ -82,7 +83,7 @@ std::optional<Fit> fit_rotation(const Candidate& candidate, const Rows& rows, do
   }
   for (std::size_t s = 0; s < sample_count; ++s) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const Vec3 moved = turned(rows.at(i, candidate.field), axis, result.amount[s]);
+      const Vec3 moved = rows.masked(i, turned(rows.at(i, candidate.field), axis, result.amount[s]));
       const double miss = (moved - rows.goal(i, s)).cwiseAbs().maxCoeff();
       if (!(miss <= tolerance)) return std::nullopt;
       result.error = std::max(result.error, miss);
@@ -97,10 +98,21 @@ std::optional<Fit> fit_rotation(const Candidate& candidate, const Rows& rows, do
 Rows::Rows(const std::vector<PointConstraint>& constraints) {
   weights_.reserve(constraints.size());
   goals_.reserve(constraints.size());
-  for (const PointConstraint& constraint : constraints) {
-    weights_.push_back(constraint.weights);
-    goals_.push_back(constraint.goal);
-  }
+  masks_.reserve(constraints.size());
+  for (const PointConstraint& constraint : constraints) add(constraint);
+}
+
+void Rows::add(const PointConstraint& constraint) {
+  weights_.push_back(constraint.weights);
+  goals_.push_back(constraint.goal);
+  masks_.push_back(Vec3::Ones());
+}
+
+void Rows::add_fixed(const Weights& weights, const Vec3& mask) {
+  weights_.push_back(weights);
+  goals_.emplace_back();
+  goals_.back().fill(Vec3::Zero());
+  masks_.push_back(mask);
 }
 
 std::optional<Fit> fit(const Candidate& candidate, const Rows& rows, double tolerance) {
@@ -115,7 +127,7 @@ double missed_by(const Candidate& candidate, const Samples& amount, const Rows& 
     for (std::size_t s = 0; s < sample_count; ++s) {
       const Vec3 moved =
           candidate.what.op == Op::rotate ? turned(v, candidate.what.direction, amount[s]) : Vec3(amount[s] * v);
-      worst = std::max(worst, (moved - rows.goal(i, s)).cwiseAbs().maxCoeff());
+      worst = std::max(worst, (rows.masked(i, moved) - rows.goal(i, s)).cwiseAbs().maxCoeff());
     }
   }
   return worst;
@@ -128,8 +140,8 @@ std::optional<Fit> fit_pair(const Candidate& first, const Candidate& second, con
   double uv = 0;
   double vv = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    u[i] = rows.at(i, first.field);
-    v[i] = rows.at(i, second.field);
+    u[i] = rows.masked(i, rows.at(i, first.field));
+    v[i] = rows.masked(i, rows.at(i, second.field));
     uu += u[i].squaredNorm();
     uv += u[i].dot(v[i]);
     vv += v[i].squaredNorm();

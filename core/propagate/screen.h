@@ -17,9 +17,17 @@ namespace parsel {
 /// Constraints as flat arrays.
 class Rows {
  public:
+  Rows() = default;
   explicit Rows(const std::vector<PointConstraint>& constraints);
+  void add(const PointConstraint& constraint);
+  /// A point that stays where it is, in the directions whose `mask` is 1.
+  void add_fixed(const Weights& weights, const Vec3& mask);
 
   std::size_t size() const { return weights_.size(); }
+  /// The directions of a displacement that count at point i.
+  Vec3 masked(std::size_t i, const Vec3& v) const { return v.cwiseProduct(masks_[i]); }
+  /// Whether all three do.
+  bool is_free(std::size_t i) const { return masks_[i].minCoeff() > 0; }
   /// W · field at point i.
   Vec3 at(std::size_t i, const Corners& field) const { return interpolate(weights_[i], field); }
   const Vec3& goal(std::size_t i, std::size_t sample) const { return goals_[i][sample]; }
@@ -27,6 +35,7 @@ class Rows {
  private:
   std::vector<Weights> weights_;
   std::vector<std::array<Vec3, sample_count>> goals_;
+  std::vector<Vec3> masks_;
 };
 
 struct Fit {

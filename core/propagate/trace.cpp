@@ -31,6 +31,7 @@ json step_json(const TraceStep& step) {
       {"runners_up", json::array()},
       {"why", step.why}};
   if (!step.hint.empty()) result["hint"] = step.hint;
+  if (step.held) result["held"] = true;
   for (const RunnerUp& other : step.runners_up) {
     result["runners_up"].push_back({{"statement", other.statement},
                                     {"symmetry_cost", other.symmetry_cost},

@@ -13,6 +13,7 @@
 //      "result":[{"relation":id,"by":number}],               // the same relations with the statements applied
 //      "left_broken":[relation ids],                         // given up; not chased again
 //      "hint":"…",                                           // when there is one
+//      "held":true,                                          // stays from the start: by a hint, or with the body
 //      "tolerance":number,                                   // accepted within; 0 for seeds and copies by symmetry
 //      "candidates":{"own":n,"neighbour":n,"pairs":n},       // generated
 //      "survivors":n,"solved":n,                             // passed the numeric screen; given to the algebra
@@ -50,6 +51,7 @@ struct TraceStep {
   std::vector<TracedRelation> pulled_by, result;
   std::vector<std::string> left_broken;
   std::string hint;
+  bool held = false;
   double tolerance = 0;
   int own_candidates = 0, neighbour_candidates = 0, pairs = 0;
   int survivors = 0, solved = 0;

@@ -54,14 +54,14 @@ void compare(Totals& totals, const Program& program, const Program& full, const 
 
 struct Variant {
   const char* name;
-  bool neighbour_edits, breaking_edits, revisions;
+  bool neighbour_edits, breaking_edits, beam;
   Totals gallery, furniture;
 
   Program run(const Shape& shape, const EditRequest& request) const {
     PropagateOptions options;
     options.neighbour_edits = neighbour_edits;
     options.breaking_edits = breaking_edits;
-    options.revisions = revisions;
+    options.beam = beam;
     auto found = propagate(shape, request, options);
     if (!found.ok()) {
       std::fprintf(stderr, "%s: %s\n", shape.name.c_str(), found.error().message().c_str());
@@ -82,7 +82,10 @@ void gallery_edits(std::vector<Variant>& variants) {
       for (Variant& variant : variants) {
         const Program program = variant.run(shape, *request);
         count_relations(variant.gallery, program);
-        compare(variant.gallery, program, full, shape, worst_distance(model, *asset, edit, shape, program));
+        const double distance = worst_distance(model, *asset, edit, shape, program);
+        if (&variant == &variants[0] && distance > 0.005)
+          std::fprintf(stderr, "%s/%s is off by %.4f\n", model.id.c_str(), edit.id.c_str(), distance);
+        compare(variant.gallery, program, full, shape, distance);
       }
     }
   }

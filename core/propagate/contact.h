@@ -1,0 +1,34 @@
+// How two joined parts meet: what a person sees of a joint when one of them moves. ParSEL ties joints by points; a
+// joint may hold at its points and still show a gap or an overlap, and a part may slide along another without either.
+//
+// Parts are seen as their hexahedra. Two boxes meet across the axis, of either box, along which they overlap least (the
+// separating axis where they are apart). The axis is that of a face, and goes along with the box that it belongs to.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/base/geometry.h"
+
+namespace parsel {
+
+struct Contact {
+  bool of_first = true;  ///< whose axis it is
+  int axis = 0;          ///< local axis of that hexahedron, the normal of the contact
+  int side = 1;          ///< the second part lies towards + or − of the normal
+  double distance = 0;   ///< along the normal, at rest; negative where they overlap
+  /// Length of the boxes' common extent along the two other axes, at rest.
+  std::array<double, 2> cover{};
+};
+
+/// Nothing where one of the boxes lies so deep in the other that no face can be told to touch.
+std::optional<Contact> contact_of(const Corners& first, const Corners& second);
+
+/// What has become of a contact.
+struct ContactChange {
+  double apart = 0;  ///< by how much the distance grew; negative where the parts entered each other
+  double lost = 0;   ///< share of the common extent that is gone, 0 … 1, the worse of the two directions
+};
+ContactChange change_of(const Contact& contact, const Corners& first, const Corners& second);
+
+}  // namespace parsel

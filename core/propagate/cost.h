@@ -1,0 +1,65 @@
+// What an edit of a part costs: one number, so that every choice of the search can be pointed at. Terms are sums over
+// parts and relations and never negative, so that a partial search only grows dearer.
+//
+// The unit is one twentieth of a joint that comes apart… said otherwise: a broken joint costs 8, and everything else is
+// measured against it. Where each number comes from stands beside it; tests/bench/run.sh prints what terms are worth.
+#pragma once
+
+#include <optional>
+
+#include "core/propagate/candidates.h"
+#include "core/propagate/contact.h"
+
+namespace parsel {
+
+/// The prices. A struct, so that the ablation can set one to 0.
+struct Prices {
+  /// A joint whose parts come apart or enter each other. Below 5 the far legs of a table are left behind rather than
+  /// stretched; above 12 everything is dragged along rather than let one joint go.
+  double broken_joint = 8;
+  /// … on top, for each half-diagonal by which it is off, so that of two edits that break it the nearer is taken.
+  double broken_by = 20;
+  /// A joint that slides along its face and stays on it. Dearer than a part that follows (a seat's legs go along), cheaper
+  /// than a symmetry (legs under a fixed top move in on both sides).
+  double slide = 3;
+  /// … on top, for the share of the contact that is gone.
+  double slide_lost = 4;
+  double broken_mirror = 4;
+  /// Mirror images one above the other: what stands on the floor grows away from it, and its upper half is seldom asked
+  /// to do the opposite of the lower one.
+  double broken_stacked_mirror = 1;
+  /// Feet that leave the floor or sink into it.
+  double broken_ground = 5;
+  /// A relation that is off by less than its tolerance: for each half-diagonal.
+  double slack = 60;
+  /// A joint that holds at its points while the surfaces part or enter each other: at once, and for each half-diagonal.
+  double seen = 0.6, seen_by = 40, seen_most = 4;
+  /// A part that nothing follows exactly, off by less than a part at rest may be. Dearer than a translation that fits,
+  /// cheaper than a turn: else the pole of a lamp turns with its shade.
+  double slightly_off = 0.3;
+  /// An edit of another kind than a hint asks for.
+  double against_hint = 30;
+  /// Staying at rest in spite of a hint.
+  double rest_against_hint = 6;
+  /// A rigid motion of everything: no answer.
+  double all_rigid = 40;
+};
+
+/// What an edit of this kind costs before anything is known of its relations.
+double price_of_kind(const Candidate& candidate, bool fills);
+
+/// Change of a part's own shape: every axis by the logarithm of its stretch, a thin one more than the longest, so that
+/// legs get longer rather than thicker. `deformed` at an end of the range.
+double price_of_strain(const Corners& rest, const Corners& deformed);
+
+/// How far two surfaces may come apart, or enter each other, without anyone seeing it.
+inline constexpr double unseen = 0.004;
+/// A joint that has lost more than this of its contact has come off.
+inline constexpr double most_lost = 0.75;
+
+/// A relation that its points miss by `residual`, allowed `tolerance`; `change`: what became of a joint's contact, if
+/// it has one.
+double price_of_relation(const Prices& prices, const Relation& relation, double residual, double tolerance,
+                         const std::optional<ContactChange>& change);
+
+}  // namespace parsel
