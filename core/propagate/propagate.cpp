@@ -6,6 +6,7 @@
 #include "core/propagate/transfer.h"
 #include "core/prove/prove.h"
 #include "core/prove/range.h"
+#include "core/prove/slack.h"
 
 namespace parsel {
 
@@ -93,9 +94,8 @@ class Loop {
         if (edits_[other] && other < part) continue;
         std::vector<PointConstraint> constraints;
         add_constraints(graph_, relation, other, edits_, constraints);
-        const bool both = edits_[other] && !edits_[other]->steps.empty() && !edits_[part]->steps.empty();
         const Motion motion = edits_[other] ? edits_[other]->motion : still();
-        if (residuals(constraints, motion)[0].second > (both ? delta_both_edited : delta_one_edited))
+        if (is_broken(relation, residuals(constraints, motion)[0].second, other, moves(other)))
           broken.push_back(relation);
       }
     }
@@ -191,6 +191,12 @@ class Loop {
  private:
   bool is_seed(PartIndex part) const {
     return std::find(request_.seed_parts.begin(), request_.seed_parts.end(), part) != request_.seed_parts.end();
+  }
+  /// Whether a part is edited and does not stay where it is.
+  bool moves(PartIndex part) const { return edits_[part] && !edits_[part]->steps.empty(); }
+  /// Whether a relation of `part`, which `moves` or not, is off by more than it may be.
+  bool is_broken(RelationIndex relation, double by, PartIndex part, bool part_moves) const {
+    return slack_of(shape_.relations[relation], by, part_moves, moves(graph_.other(relation, part))) == Slack::broken;
   }
   const std::string& id(PartIndex part) const { return shape_.parts[part].id; }
   const std::string& id(RelationIndex relation) const { return shape_.relations[relation].id; }
@@ -315,7 +321,8 @@ class Loop {
       trace.hint = "keep_fixed";
       for (const auto& [relation, by] : off) {
         trace.pulled_by.push_back({id(relation), by});
-        if (by > delta_one_edited) trace.left_broken.push_back(id(relation));
+        if (slack_of(shape_.relations[relation], by, false, false) == Slack::broken)
+          trace.left_broken.push_back(id(relation));
       }
       trace.result = trace.pulled_by;
       trace.why = "a hint keeps it fixed";
@@ -420,11 +427,9 @@ class Loop {
       return;
     }
     const Motion motion = motion_of(shape_, part, solution.steps);
-    // A part that stays is one that is not edited, whose tolerance is the narrower.
-    const double allowed = solution.steps.empty() ? delta_one_edited : delta_both_edited;
     for (const auto& [relation, by] : residuals(constraints, motion)) {
       trace.result.push_back({id(relation), by});
-      if (by > allowed) trace.left_broken.push_back(id(relation));
+      if (is_broken(relation, by, part, !solution.steps.empty())) trace.left_broken.push_back(id(relation));
     }
     if (solution.outcome == Outcome::keep_fixed) {
       trace.kind = "keep_fixed";
@@ -466,9 +471,9 @@ class Loop {
 
   /// Relations of the part to edited parts that these steps break.
   int lost_with(PartIndex part, const std::vector<Step>& steps) const {
-    const double allowed = steps.empty() ? delta_one_edited : delta_both_edited;
     int lost = 0;
-    for (const auto& [relation, by] : residuals(pulls_[part], motion_of(shape_, part, steps))) lost += by > allowed;
+    for (const auto& [relation, by] : residuals(pulls_[part], motion_of(shape_, part, steps)))
+      lost += is_broken(relation, by, part, !steps.empty());
     return lost;
   }
 

@@ -7,6 +7,7 @@
 
 #include "core/base/tolerance.h"
 #include "core/propagate/transfer.h"
+#include "core/prove/slack.h"
 
 namespace parsel {
 
@@ -210,9 +211,12 @@ class Search {
       auto steps = steps_of(survivors[i], solver);
       if (!steps) continue;
       const Motion motion = motion_of(shape_, part_, *steps);
-      double worst = 0;
-      for (const auto& [relation, by] : residuals(constraints_, motion)) worst = std::max(worst, by);
-      if (worst > tolerance + simplification_slack) continue;
+      const auto is_missed = [&](const std::pair<RelationIndex, double>& off) {
+        const double by = off.second - simplification_slack;
+        return by > tolerance || is_broken(off.first, by, true);
+      };
+      const RelationResiduals off = residuals(constraints_, motion);
+      if (std::any_of(off.begin(), off.end(), is_missed)) continue;
       std::swap(survivors[0], survivors[i]);  // what could not be solved is no runner-up that deserves to be first
       if (survivors[0].second == nullptr && survivors[0].first->from_neighbour) kind = WhyKind::neighbour;
       record(survivors, tolerance, kind);
@@ -220,6 +224,12 @@ class Search {
       return true;
     }
     return false;
+  }
+
+  /// Whether a relation is off by more than it may be, when this part `moves` or stays.
+  bool is_broken(RelationIndex relation, double by, bool moves) const {
+    const auto& other = scene_.edits[scene_.graph.other(relation, part_)];
+    return slack_of(shape_.relations[relation], by, moves, !other->steps.empty()) == Slack::broken;
   }
 
   std::optional<std::vector<Step>> steps_of(const Survivor& survivor, AmountSolver& solver) {
@@ -278,20 +288,21 @@ class Search {
     }
     std::vector<Rows> rows;
     for (const auto& group : groups) rows.emplace_back(group);
-    const auto lost_by = [&](const auto& misses_of) {
+    const auto lost_by = [&](bool moves, const auto& misses_of) {
       Lost lost;
       for (std::size_t g = 0; g < groups.size(); ++g) {
         const double by = misses_of(g);
-        const bool broken = by > scene_.options.both_edited;
+        const RelationIndex relation = groups[g].front().relation;
+        const bool broken = is_broken(relation, by, moves);
         lost.relations += broken;
-        lost.joints += broken && shape_.relations[groups[g].front().relation].is_attachment();
+        lost.joints += broken && shape_.relations[relation].is_attachment();
         lost.inexact += by > scene_.options.exact;
       }
       return lost;
     };
     Motion still;
     still.fill(Corners::Zero());
-    const auto at_rest = lost_by([&](std::size_t g) { return residuals(groups[g], still)[0].second; });
+    const auto at_rest = lost_by(false, [&](std::size_t g) { return residuals(groups[g], still)[0].second; });
     std::vector<Proposal> best;
     Lost fewest = at_rest;
     for (const std::vector<Candidate>* list : {&own_, &neighbour_}) {
@@ -301,7 +312,7 @@ class Search {
           if (!found) continue;
           ++trace_.survivors;
           const auto lost =
-              lost_by([&](std::size_t other) { return missed_by(candidate, found->amount, rows[other]); });
+              lost_by(true, [&](std::size_t other) { return missed_by(candidate, found->amount, rows[other]); });
           if (lost > fewest || lost.relations >= at_rest.relations) continue;
           if (lost < fewest) best.clear();
           fewest = lost;
