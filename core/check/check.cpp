@@ -27,7 +27,7 @@ constexpr const char* anew = "propagate the edit again: what it does to relation
 class Checker {
  public:
   Checker(const Shape& shape, const Program& program, CheckReport& report)
-      : shape_(shape), replay_(shape), program_(program), report_(report) {}
+      : shape_(shape), replay_(shape, program), program_(program), report_(report) {}
 
   /// Whether the program makes enough sense to be evaluated.
   bool structure() {
@@ -50,7 +50,7 @@ class Checker {
     replay::Values zero;
     for (const Layer& layer : program_.layers) zero[layer.parameter.name] = 0;
     const replay::Scene rest = replay_.rest();
-    const replay::Scene scene = replay_.scene(program_, program_.layers.size(), zero);
+    const replay::Scene scene = replay_.scene(program_.layers.size(), zero);
     for (const PartIndex p : shape_.parts.indices()) {
       for (std::size_t k = 0; k < 8; ++k) {
         if ((scene.parts[p][k] - rest.parts[p][k]).norm() <= at_rest) continue;
@@ -70,7 +70,7 @@ class Checker {
     if (!(parameter.min <= parameter.value && parameter.value <= parameter.max)) {
       find(layer_place(l) + "/parameter/value", "outside the range", "move it inside");
     }
-    const replay::Ties ties = replay::ties_of(replay_, program_, l + 1, replay::disabled_in(replay_, layer));
+    const replay::Ties ties = replay::ties_of(replay_, l + 1, replay::disabled_in(replay_, layer));
     std::map<RelationIndex, double> due = measure(l, ties);
     if (layer.relations.empty()) return;
 
@@ -138,7 +138,7 @@ class Checker {
     const Parameter& parameter = program_.layers[l].parameter;
     replay::Values values = replay::values_of(program_);
     values[parameter.name] = 0;
-    const replay::Scene start = replay_.scene(program_, l + 1, values);
+    const replay::Scene start = replay_.scene(l + 1, values);
     std::vector<replay::Tie> due;
     for (const RelationIndex r : ties.due) {
       replay::Tie tie(shape_, r);
@@ -150,7 +150,7 @@ class Checker {
       values[parameter.name] = x;
       ++report_.samples;
       amounts(l, values, faulty);
-      const replay::Scene scene = replay_.scene(program_, l + 1, values);
+      const replay::Scene scene = replay_.scene(l + 1, values);
       inversions(l, scene, ties, faulty);
       for (std::size_t i = 0; i < due.size(); ++i) worst[i] = std::max(worst[i], due[i].off(scene));
     }
@@ -163,7 +163,7 @@ class Checker {
     const std::vector<Statement>& statements = program_.layers[l].statements;
     for (std::size_t i = 0; i < statements.size(); ++i) {
       if (statements[i].op == Op::keep_fixed) continue;
-      if (std::abs(replay::value_of(statements[i].amount.text(), values)) < 5) continue;
+      if (std::abs(replay_.amount(l, i, values)) < 5) continue;
       const std::string place = layer_place(l) + "/statements/" + std::to_string(i) + "/amount";
       if (faulty.insert(place).second) find(place, "undefined or beyond 5 somewhere in the range", narrow);
     }

@@ -58,15 +58,14 @@ bool counts(const Shape& shape, RelationIndex r, const std::set<RelationIndex>& 
                      [&](PartIndex p) { return counts(shape.parts[p], dissolved); });
 }
 
-Ties ties_of(const Replay& replay, const Program& program, std::size_t layers,
-             const std::set<RelationIndex>& disabled) {
+Ties ties_of(const Replay& replay, std::size_t layers, const std::set<RelationIndex>& disabled) {
   const Shape& shape = replay.shape();
   Ties ties;
   for (const RelationIndex r : disabled) {
     if (shape.relations[r].is_group()) ties.dissolved.insert(r);
   }
   for (std::size_t l = 0; l < layers; ++l) {
-    for (const Statement& s : program.layers[l].statements) {
+    for (const Statement& s : replay.program().layers[l].statements) {
       const bool moves = s.op != Op::keep_fixed;
       std::optional<RelationIndex> group;
       if (s.op == Op::change_count || s.op == Op::change_delta) {

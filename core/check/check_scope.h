@@ -19,7 +19,7 @@ struct Ties {
 };
 
 /// After the first `layers` layers; `disabled`: relations.
-Ties ties_of(const Replay& replay, const Program& program, std::size_t layers, const std::set<RelationIndex>& disabled);
+Ties ties_of(const Replay& replay, std::size_t layers, const std::set<RelationIndex>& disabled);
 
 /// Relations that a layer's reports call disabled; unknown ids are left out.
 std::set<RelationIndex> disabled_in(const Replay& replay, const Layer& layer);

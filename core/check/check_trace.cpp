@@ -24,7 +24,7 @@ class TraceChecker {
  public:
   TraceChecker(const Shape& shape, const Program& program, std::size_t layer, const json& trace, CheckReport& report)
       : shape_(shape),
-        replay_(shape),
+        replay_(shape, program),
         program_(program),
         layer_(program.layers[layer]),
         number_(layer),
@@ -92,7 +92,7 @@ class TraceChecker {
       const auto relation = replay_.relation(id);
       if (claim(relation.has_value(), "disabled relation " + id + " does not exist")) disabled_.insert(*relation);
     }
-    const Ties ties = ties_of(replay_, program_, number_ + 1, disabled_);
+    const Ties ties = ties_of(replay_, number_ + 1, disabled_);
     std::set<RelationIndex> dissolved;
     for (const std::string id : trace_.at("dissolved")) {
       const auto relation = replay_.relation(id);
@@ -119,7 +119,7 @@ class TraceChecker {
     for (const double x : samples) {
       Values values = values_of(program_);
       values[layer_.parameter.name] = x;
-      start_.push_back(replay_.scene(program_, number_, values));
+      start_.push_back(replay_.scene(number_, values));
       values_.push_back(std::move(values));
     }
     now_ = start_;
@@ -169,7 +169,7 @@ class TraceChecker {
       if (kind != "seed") claim(fixed == (kind == "keep_fixed"), "keep_fixed in one place only");
       if (statement.why && !fixed) claim(name_of(statement.why->kind) == kind, "the statement gives another reason");
       moves = moves || !fixed;
-      for (std::size_t s = 0; s < now_.size(); ++s) replay_.run(statement, start_[s], values_[s], now_[s]);
+      for (std::size_t s = 0; s < now_.size(); ++s) replay_.run(number_, index, start_[s], values_[s], now_[s]);
     }
     if (moves) moved_.insert(part_);
     for (const std::size_t t : ties_of_[part_]) measure(t);

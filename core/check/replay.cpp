@@ -8,23 +8,6 @@
 
 namespace parsel::replay {
 
-Mat3 rotation(const Vec3& n, double angle) {
-  Mat3 skew;
-  skew << 0, -n.z(), n.y(), n.z(), 0, -n.x(), -n.y(), n.x(), 0;
-  return std::cos(angle) * Mat3::Identity() + std::sin(angle) * skew + (1 - std::cos(angle)) * n * n.transpose();
-}
-
-std::array<double, 8> blend(const Vec3& u) {
-  std::array<double, 8> weights;
-  for (int k = 0; k < 8; ++k) {
-    const double x = k % 2 == 1 ? (1 + u.x()) / 2 : (1 - u.x()) / 2;
-    const double y = k / 2 % 2 == 1 ? (1 + u.y()) / 2 : (1 - u.y()) / 2;
-    const double z = k / 4 == 1 ? (1 + u.z()) / 2 : (1 - u.z()) / 2;
-    weights[static_cast<std::size_t>(k)] = x * y * z;
-  }
-  return weights;
-}
-
 namespace {
 
 Vec3 sum_of(const std::vector<Vec3>& points) {
@@ -116,9 +99,8 @@ class Stage {
  public:
   Stage(const Replay& replay, Scene& scene) : replay_(replay), shape_(replay.shape()), scene_(scene) {}
 
-  void run(const Statement& s, const Scene& start, const Values& parameters) {
-    if (s.op == Op::keep_fixed) return;
-    const double value = value_of(s.amount.text(), parameters);
+  /// `value` of the statement's amount.
+  void run(const Statement& s, double value, const Scene& start) {
     const double amount = std::isfinite(value) ? value : 0;
     if (s.op == Op::change_count || s.op == Op::change_delta) {
       const RelationIndex group = *replay_.relation(s.relation);
@@ -320,13 +302,12 @@ class Stage {
 
 }  // namespace
 
-Box box_of(const Corners& corners) {
-  Box box;
-  for (int k = 0; k < 8; ++k) box[static_cast<std::size_t>(k)] = corners.row(k).transpose();
-  return box;
-}
-
-Replay::Replay(const Shape& shape) : shape_(&shape), places_(shape.parts.size()) {
+Replay::Replay(const Shape& shape, const Program& program)
+    : shape_(&shape), program_(&program), places_(shape.parts.size()) {
+  for (const Layer& layer : program.layers) {
+    std::vector<std::string>& texts = texts_.emplace_back();
+    for (const Statement& statement : layer.statements) texts.push_back(statement.amount.text());
+  }
   for (const PartIndex p : shape.parts.indices()) parts_[shape.parts[p].id] = p;
   for (const RelationIndex r : shape.relations.indices()) {
     relations_[shape.relations[r].id] = r;
@@ -370,30 +351,24 @@ Scene Replay::rest() const {
   return scene;
 }
 
-void Replay::run(const Statement& statement, const Scene& start, const Values& parameters, Scene& scene) const {
-  Stage(*this, scene).run(statement, start, parameters);
+double Replay::amount(std::size_t layer, std::size_t statement, const Values& parameters) const {
+  return value_of(texts_[layer][statement], parameters);
 }
 
-Scene Replay::scene(const Program& program, std::size_t layers, const Values& parameters) const {
+void Replay::run(std::size_t layer, std::size_t statement, const Scene& start, const Values& parameters,
+                 Scene& scene) const {
+  const Statement& s = program_->layers[layer].statements[statement];
+  if (s.op != Op::keep_fixed) Stage(*this, scene).run(s, amount(layer, statement, parameters), start);
+}
+
+Scene Replay::scene(std::size_t layers, const Values& parameters) const {
   Scene scene = rest();
   for (std::size_t l = 0; l < layers; ++l) {
     const Scene start = scene;
-    for (const Statement& statement : program.layers[l].statements) run(statement, start, parameters, scene);
+    const std::size_t statements = program_->layers[l].statements.size();
+    for (std::size_t i = 0; i < statements; ++i) run(l, i, start, parameters, scene);
   }
   return scene;
-}
-
-double smallest_volume(const Box& box, const Box& rest) {
-  const auto at_corner = [](const Box& b, int k) {
-    Mat3 edges;
-    for (int axis = 0; axis < 3; ++axis) {
-      edges.col(axis) = b[static_cast<std::size_t>(k | (1 << axis))] - b[static_cast<std::size_t>(k & ~(1 << axis))];
-    }
-    return edges.determinant();
-  };
-  double smallest = 1e300;
-  for (int k = 0; k < 8; ++k) smallest = std::min(smallest, at_corner(box, k) / at_corner(rest, k));
-  return smallest;
 }
 
 }  // namespace parsel::replay

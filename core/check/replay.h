@@ -37,30 +37,36 @@ struct Scene {
 /// Value of an amount's text at parameter values by name. NaN where undefined or not readable.
 double value_of(const std::string& text, const Values& parameters);
 
-/// Runs programs on a shape, which must outlive this object. Of a program, its parts, relations and fields have been
-/// found to exist.
+/// Runs a program on a shape; both must outlive this object. Whoever asks for a scene has found the program's parts,
+/// relations and fields to exist.
 class Replay {
  public:
-  explicit Replay(const Shape& shape);
+  Replay(const Shape& shape, const Program& program);
 
   const Shape& shape() const { return *shape_; }
+  const Program& program() const { return *program_; }
   /// By id or "node:<n>".
   std::optional<PartIndex> part(const std::string& name) const;
   std::optional<RelationIndex> relation(const std::string& id) const;
   /// The number of an instance in its group.
   std::size_t place(PartIndex instance) const { return places_[instance]; }
 
+  /// What value_of() says of a statement's amount.
+  double amount(std::size_t layer, std::size_t statement, const Values& parameters) const;
+
   Scene rest() const;
   /// The shape after the first `layers` layers.
-  Scene scene(const Program& program, std::size_t layers, const Values& parameters) const;
+  Scene scene(std::size_t layers, const Values& parameters) const;
   /// One statement of a layer that began with `start`.
-  void run(const Statement& statement, const Scene& start, const Values& parameters, Scene& scene) const;
+  void run(std::size_t layer, std::size_t statement, const Scene& start, const Values& parameters, Scene& scene) const;
 
  private:
   const Shape* shape_;
+  const Program* program_;
   std::unordered_map<std::string, PartIndex> parts_;
   std::unordered_map<std::string, RelationIndex> relations_;
   PartData<std::size_t> places_;
+  std::vector<std::vector<std::string>> texts_;  ///< of the amounts, layer by layer: printing them takes long
 };
 
 /// Smallest volume at a corner (three edges' determinant), relative to the box at rest.

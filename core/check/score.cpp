@@ -18,9 +18,9 @@ using replay::Replay;
 
 using Signature = std::pair<Op, std::string>;
 
-std::set<Signature> signatures(const Replay& replay, const Program& program) {
+std::set<Signature> signatures(const Replay& replay) {
   std::set<Signature> result;
-  for (const Layer& layer : program.layers) {
+  for (const Layer& layer : replay.program().layers) {
     for (const Statement& s : layer.statements) {
       // A part may be named by its node; its id says the same.
       const bool of_group = s.op == Op::change_count || s.op == Op::change_delta;
@@ -38,14 +38,15 @@ double jaccard(const std::set<Signature>& a, const std::set<Signature>& b) {
 }
 
 /// The program with its parameters at 0.35, clamped into the ranges of the layers of both with the same number.
-replay::Scene scene_of(const Replay& replay, const Program& program, const Program& other) {
+replay::Scene scene_of(const Replay& replay, const Program& other) {
+  const Program& program = replay.program();
   replay::Values values;
   for (std::size_t l = 0; l < program.layers.size(); ++l) {
     double value = std::min(tau, program.layers[l].parameter.max);
     if (l < other.layers.size()) value = std::min(value, other.layers[l].parameter.max);
     values[program.layers[l].parameter.name] = value;
   }
-  return replay.scene(program, program.layers.size(), values);
+  return replay.scene(program.layers.size(), values);
 }
 
 double distance(const replay::Box& a, const replay::Box& b) {
@@ -78,25 +79,26 @@ struct States {
   std::set<PartIndex> moved;
 };
 
-States states_of(const Replay& replay, const Program& program) {
+States states_of(const Replay& replay) {
+  const Program& program = replay.program();
   const Shape& shape = replay.shape();
   States states{RelationData<Kept>(shape.relations.size(), Kept::yes), {}};
   std::set<RelationIndex> disabled;
   for (const Layer& layer : program.layers) disabled.merge(replay::disabled_in(replay, layer));
   std::set<RelationIndex> dissolved;
   for (std::size_t l = 0; l < program.layers.size(); ++l) {
-    const replay::Ties ties = replay::ties_of(replay, program, l + 1, disabled);
-    std::vector<replay::Tie> due;
+    const replay::Ties ties = replay::ties_of(replay, l + 1, disabled);
+    std::vector<std::pair<replay::Tie, double>> due;  // with its tolerance
     for (const RelationIndex r : ties.due) {
-      if (replay::counts(shape, r, ties.dissolved)) due.emplace_back(shape, r);
+      if (!replay::counts(shape, r, ties.dissolved)) continue;
+      due.emplace_back(replay::Tie(shape, r), replay::tolerance(shape.relations[r], ties.moved));
     }
     replay::Values values = replay::values_of(program);
     for (const double x : replay::looked_at(program.layers[l].parameter, l)) {
       values[program.layers[l].parameter.name] = x;
-      const replay::Scene scene = replay.scene(program, l + 1, values);
-      for (const replay::Tie& tie : due) {
-        const bool broken = tie.off(scene) > replay::tolerance(tie.relation(), ties.moved);
-        if (broken) states.of_relation[tie.index()] = Kept::no;
+      const replay::Scene scene = replay.scene(l + 1, values);
+      for (const auto& [tie, tolerance] : due) {
+        if (tie.off(scene) > tolerance) states.of_relation[tie.index()] = Kept::no;
       }
     }
     states.moved = ties.moved;
@@ -127,11 +129,11 @@ void compare_states(const Shape& shape, const States& truth, const States& progr
 }  // namespace
 
 Score score_program(const Shape& shape, const Program& truth, const Program& program) {
-  const Replay replay(shape);
+  const Replay expected(shape, truth), actual(shape, program);
   Score score;
-  score.programmatic = jaccard(signatures(replay, truth), signatures(replay, program));
-  score.geometric = distance(shape, scene_of(replay, truth, program), scene_of(replay, program, truth));
-  compare_states(shape, states_of(replay, truth), states_of(replay, program), score);
+  score.programmatic = jaccard(signatures(expected), signatures(actual));
+  score.geometric = distance(shape, scene_of(expected, program), scene_of(actual, truth));
+  compare_states(shape, states_of(expected), states_of(actual), score);
   return score;
 }
 

@@ -61,10 +61,10 @@ TEST_CASE("the checker's evaluator agrees with the real one") {
         statements.push_back(hand::group_statement(Op::change_delta, relation.id, "x1", anchor));
       }
       const Evaluator evaluator(program, shape);
-      const replay::Replay replay(shape);
+      const replay::Replay replay(shape, program);
       for (const double x : {-0.35, -0.123, 0.0, 0.2, 0.35}) {
         const State state = evaluator({x});
-        const replay::Scene scene = replay.scene(program, 1, {{"x1", x}});
+        const replay::Scene scene = replay.scene(1, {{"x1", x}});
         for (const PartIndex p : shape.parts.indices()) {
           const replay::Box& box = scene.parts[p];
           for (int k = 0; k < 8; ++k) {
