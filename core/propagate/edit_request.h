@@ -31,9 +31,11 @@ nlohmann::json to_json(const EditRequest& request);
 
 /// A request with its names looked up in a shape.
 struct ResolvedRequest {
-  std::vector<Statement> seed;           ///< node:… replaced by ids
-  std::vector<PartIndex> seed_parts;     ///< whose corners seed[i] moves; the parent for group operators
-  std::set<RelationIndex> disabled;      ///< reflections and attachments; with the group relations that are dissolved
+  std::vector<Statement> seed;        ///< node:… replaced by ids
+  std::vector<PartIndex> seed_parts;  ///< whose corners seed[i] moves; the parent for group operators
+  /// Reflections and attachments, with those of instances whose group's own attachment is disabled, and the group
+  /// relations that are dissolved.
+  std::set<RelationIndex> disabled;
   std::vector<RelationIndex> dissolved;  ///< groups that a seed on an instance, or "disabled", takes apart
   std::map<PartIndex, Hint> hints;
 };
