@@ -6,6 +6,7 @@
 
 #include "core/check/check_scope.h"
 #include "core/check/replay.h"
+#include "core/check/tie.h"
 
 namespace parsel::replay {
 
@@ -19,15 +20,17 @@ constexpr double both_edited = 0.0433;
 /// The propagation works with displacements and rounds amounts afterwards, a little below this.
 constexpr double replay_error = 1e-5;
 
-using Deviations = std::map<std::string, double>;  ///< by relation id
-
 class TraceChecker {
  public:
   TraceChecker(const Shape& shape, const Program& program, std::size_t layer, const json& trace, CheckReport& report)
-      : shape_(shape), layer_(program.layers[layer]), number_(layer), trace_(trace), report_(report) {
-    replayed_ = program;
-    replayed_.layers.resize(layer + 1);
-  }
+      : shape_(shape),
+        replay_(shape, program),
+        program_(program),
+        layer_(program.layers[layer]),
+        number_(layer),
+        trace_(trace),
+        report_(report),
+        ties_of_(shape.parts.size()) {}
 
   void run() {
     header();
@@ -41,19 +44,17 @@ class TraceChecker {
       const bool is_seed = kind == "seed";
       claim(seeding || !is_seed, "a seed comes after another edit");
       seeding = seeding && is_seed;
-      identity(step, kind);
+      if (!identity(step, kind)) continue;
       if (!is_seed && held_.count(part_) == 0) was_pulled_at();
-      const Deviations before = measure();
+      if (!is_seed) compare(step, "pulled_by");
       own_statements(step, kind);
-      const Deviations after = measure();
       if (!is_seed) {
-        compare(step, "pulled_by", before);
-        compare(step, "result", after);
-        left_broken(step, kind, after);
+        compare(step, "result");
+        left_broken(step, kind);
       }
       numbers(step);
       if (kind == "left_alone") {
-        left_alone_[part_] = edited_relations(part_).size();
+        left_alone_[part_] = edited_ties(part_).size();
       } else {
         edited_.insert(part_);
       }
@@ -68,9 +69,13 @@ class TraceChecker {
  private:
   bool claim(bool holds, const std::string& text) {
     ++report_.claims;
-    if (!holds) report_.findings.push_back({place_, text});
+    if (!holds) {
+      report_.findings.push_back({place_, text, "propagate the edit again with --trace: each trace is of one program"});
+    }
     return holds;
   }
+
+  const std::string& id(PartIndex part) const { return shape_.parts[part].id; }
 
   void header() {
     place_ = "trace";
@@ -80,46 +85,67 @@ class TraceChecker {
     claim(tolerances.at("exact") == exact && tolerances.at("one_edited") == one_edited &&
               tolerances.at("both_edited") == both_edited,
           "tolerances are not the project's");
-    for (const double x : trace_.at("samples")) samples_.push_back(x);
-    claim(!samples_.empty() && std::is_sorted(samples_.begin(), samples_.end()), "samples are not ascending");
+    std::vector<double> samples;
+    for (const double x : trace_.at("samples")) samples.push_back(x);
+    claim(!samples.empty() && std::is_sorted(samples.begin(), samples.end()), "samples are not ascending");
     for (const std::string id : trace_.at("disabled")) {
-      disabled_.insert(id);
-      claim(shape_.find_relation(id).has_value(), "disabled relation " + id + " does not exist");
+      const auto relation = replay_.relation(id);
+      if (claim(relation.has_value(), "disabled relation " + id + " does not exist")) disabled_.insert(*relation);
     }
-    const Ties ties = ties_of(shape_, replayed_, number_ + 1, disabled_);
-    for (const std::string id : trace_.at("dissolved")) dissolved_.insert(id);
-    claim(dissolved_ == ties.dissolved, "dissolved groups are not those that the program takes apart");
-    for (const RelationReport& relation : layer_.relations) {
-      const bool reported = relation.status == RelationStatus::disabled;
-      claim(reported == (disabled_.count(relation.id) > 0), relation.id + " is disabled in one place only");
+    const Ties ties = ties_of(replay_, number_ + 1, disabled_);
+    std::set<RelationIndex> dissolved;
+    for (const std::string id : trace_.at("dissolved")) {
+      const auto relation = replay_.relation(id);
+      if (claim(relation.has_value(), "dissolved group " + id + " does not exist")) dissolved.insert(*relation);
     }
-    for (const Part& part : shape_.parts) {
-      const bool stands = part.group && dissolved_.count(shape_.relations[*part.group].id) == 0;
-      if (!part.group || stands == part.is_virtual()) active_.insert(part.id);
+    claim(dissolved == ties.dissolved, "dissolved groups are not those that the program takes apart");
+    const std::set<RelationIndex> reported = disabled_in(replay_, layer_);
+    for (const RelationReport& report : layer_.relations) {
+      const auto relation = replay_.relation(report.id);
+      const bool is_same = relation && (reported.count(*relation) > 0) == (disabled_.count(*relation) > 0);
+      claim(is_same, report.id + " is disabled in one place only");
     }
-    replayed_.layers[number_].statements.clear();
-    for (const Relation& relation : shape_.relations) {
-      if (relation.is_group() || disabled_.count(relation.id) > 0 || !counts(shape_, relation, dissolved_)) continue;
-      relations_.push_back(&relation);
+    for (const PartIndex p : shape_.parts.indices()) {
+      if (counts(shape_.parts[p], dissolved)) active_.insert(p);
     }
+    for (const RelationIndex r : shape_.relations.indices()) {
+      const Relation& relation = shape_.relations[r];
+      if (relation.is_group() || disabled_.count(r) > 0 || !counts(shape_, r, dissolved)) continue;
+      for (const PartIndex p : relation.parts) ties_of_[p].push_back(ties_.size());
+      tie_of_[relation.id] = ties_.size();
+      ties_.emplace_back(shape_, r);
+      off_.push_back(0);
+    }
+    for (const double x : samples) {
+      Values values = values_of(program_);
+      values[layer_.parameter.name] = x;
+      start_.push_back(replay_.scene(number_, values));
+      values_.push_back(std::move(values));
+    }
+    now_ = start_;
+    for (std::size_t t = 0; t < ties_.size(); ++t) measure(t);  // earlier layers may have moved them
   }
 
   /// Parts that are held, by a hint or with the body of the model, count as edited from the start; their steps stand at
   /// the end.
   void find_held(const json& steps) {
     for (const json& step : steps) {
-      if (step.at("kind") == "keep_fixed" && step.value("held", false)) held_.insert(step.at("part"));
+      if (step.at("kind") != "keep_fixed" || !step.value("held", false)) continue;
+      if (const auto part = replay_.part(step.at("part").get<std::string>())) held_.insert(*part);
     }
     edited_ = held_;
   }
 
-  void identity(const json& step, const std::string& kind) {
-    part_ = step.at("part");
-    claim(active_.count(part_) == 1, part_ + " is no part that counts here");
-    claim(edited_.count(part_) == 0 || held_.count(part_) > 0, part_ + " is edited twice");
+  /// Whether the step's part is one that it can speak of.
+  bool identity(const json& step, const std::string& kind) {
+    const std::string name = step.at("part");
+    const auto part = replay_.part(name);
+    if (!claim(part && active_.count(*part) == 1, name + " is no part that counts here")) return false;
+    part_ = *part;
+    claim(edited_.count(part_) == 0 || held_.count(part_) > 0, name + " is edited twice");
     static const std::set<std::string> kinds = {"seed",     "symmetry", "attachment", "neighbour",
                                                 "breaking", "group",    "keep_fixed", "left_alone"};
-    claim(kinds.count(kind) == 1, "unknown kind " + kind);
+    return claim(kinds.count(kind) == 1, "unknown kind " + kind);
   }
 
   static std::string name_of(WhyKind kind) {
@@ -132,53 +158,48 @@ class TraceChecker {
   /// Checks that the step's statements are its part's, and applies them.
   void own_statements(const json& step, const std::string& kind) {
     const json& indices = step.at("statements");
-    moves_ = false;
+    bool moves = false;
     if (kind == "left_alone") claim(indices.empty(), "a part left alone has statements");
     if (kind != "left_alone" && kind != "keep_fixed") claim(!indices.empty(), "an edit without statements");
     for (const std::size_t index : indices) {
       if (!claim(index < layer_.statements.size(), "there is no statement " + std::to_string(index))) continue;
       claim(used_.insert(index).second, "statement " + std::to_string(index) + " belongs to two steps");
       const Statement& statement = layer_.statements[index];
-      claim(target_of(statement) == part_, "statement " + std::to_string(index) + " does not edit " + part_);
+      claim(target_of(statement) == part_, "statement " + std::to_string(index) + " does not edit " + id(part_));
       const bool fixed = statement.op == Op::keep_fixed;
       if (kind != "seed") claim(fixed == (kind == "keep_fixed"), "keep_fixed in one place only");
       if (statement.why && !fixed) claim(name_of(statement.why->kind) == kind, "the statement gives another reason");
-      moves_ = moves_ || !fixed;
-      replayed_.layers[number_].statements.push_back(statement);
+      moves = moves || !fixed;
+      for (std::size_t s = 0; s < now_.size(); ++s) replay_.run(number_, index, start_[s], values_[s], now_[s]);
     }
+    if (moves) moved_.insert(part_);
+    for (const std::size_t t : ties_of_[part_]) measure(t);
   }
 
-  std::string target_of(const Statement& statement) const {
-    if (is_geometric(statement.op)) return shape_.parts[*shape_.find_part(statement.part)].id;
-    const RelationIndex group = *shape_.find_relation(statement.relation);
-    for (const Part& part : shape_.parts) {
-      if (part.is_virtual() && part.group == group) return part.id;
-    }
-    return "";
+  /// The part that counts and that the statement moves.
+  std::optional<PartIndex> target_of(const Statement& statement) const {
+    if (statement.op != Op::change_count && statement.op != Op::change_delta) return replay_.part(statement.part);
+    const Relation& group = shape_.relations[*replay_.relation(statement.relation)];
+    const auto* line = std::get_if<Translation>(&group.detail);
+    return line != nullptr ? line->parent : std::get<Rotation>(group.detail).parent;
   }
 
-  /// Deviations of every relation at the samples, with the statements so far.
-  Deviations measure() const {
-    Deviations worst;
-    std::map<std::string, double> values;
-    for (const Layer& layer : replayed_.layers) values[layer.parameter.name] = layer.parameter.value;
-    for (const double x : samples_) {
-      values[layer_.parameter.name] = x;
-      const Scene scene = scene_of(shape_, replayed_, number_ + 1, values);
-      for (const Relation* relation : relations_) {
-        double& largest = worst[relation->id];
-        largest = std::max(largest, deviation_of(shape_, *relation, scene));
-      }
-    }
-    return worst;
+  /// A statement moves its own part (and the instances of its group, which do not count) alone, so only that part's
+  /// ties need be measured again.
+  void measure(std::size_t tie) {
+    off_[tie] = 0;
+    for (const Scene& scene : now_) off_[tie] = std::max(off_[tie], ties_[tie].off(scene));
   }
 
-  std::vector<const Relation*> edited_relations(const std::string& part) const {
-    std::vector<const Relation*> result;
-    for (const Relation* relation : relations_) {
-      const std::string& a = shape_.parts[relation->parts[0]].id;
-      const std::string& b = shape_.parts[relation->parts[1]].id;
-      if ((a == part && edited_.count(b) > 0) || (b == part && edited_.count(a) > 0)) result.push_back(relation);
+  PartIndex other(std::size_t tie, PartIndex part) const {
+    const std::vector<PartIndex>& parts = ties_[tie].relation().parts;
+    return parts[0] == part ? parts[1] : parts[0];
+  }
+
+  std::vector<std::size_t> edited_ties(PartIndex part) const {
+    std::vector<std::size_t> result;
+    for (const std::size_t t : ties_of_[part]) {
+      if (edited_.count(other(t, part)) > 0) result.push_back(t);
     }
     return result;
   }
@@ -186,54 +207,53 @@ class TraceChecker {
   /// A broken symmetry that is none of one above the other, number of broken relations.
   using Urgency = std::pair<bool, int>;
 
-  Urgency urgency(const std::string& part, const Deviations& deviations, double threshold) const {
+  Urgency urgency(PartIndex part, double threshold) const {
     Urgency result{false, 0};
-    for (const Relation* relation : edited_relations(part)) {
-      if (deviations.at(relation->id) <= threshold) continue;
-      const auto* mirror = std::get_if<Reflection>(&relation->detail);
+    for (const std::size_t t : edited_ties(part)) {
+      if (off_[t] <= threshold) continue;
+      const Relation& relation = ties_[t].relation();
+      const auto* mirror = std::get_if<Reflection>(&relation.detail);
       const bool is_stacked = mirror != nullptr && mirror->normal.y() * mirror->normal.y() > 0.5;
-      result.first = result.first || (relation->is_symmetry() && !is_stacked);
+      result.first = result.first || (relation.is_symmetry() && !is_stacked);
       ++result.second;
     }
     return result;
   }
 
-  bool waits(const std::string& part) const {
+  bool waits(PartIndex part) const {
     const auto alone = left_alone_.find(part);
-    return edited_.count(part) == 0 && (alone == left_alone_.end() || alone->second != edited_relations(part).size());
+    return edited_.count(part) == 0 && (alone == left_alone_.end() || alone->second != edited_ties(part).size());
   }
 
   /// What was not pulled at had no reason to be edited. Which part came first is the search's affair.
   void was_pulled_at() {
-    claim(urgency(part_, measure(), exact - replay_error).second > 0,
-          part_ + " was taken although nothing pulls at it");
+    claim(urgency(part_, exact - replay_error).second > 0, id(part_) + " was taken although nothing pulls at it");
   }
 
-  void compare(const json& step, const char* key, const Deviations& deviations) {
+  void compare(const json& step, const char* key) {
     std::set<std::string> named;
     for (const json& entry : step.at(key)) {
       const std::string id = entry.at("relation");
       named.insert(id);
-      const auto found = deviations.find(id);
-      if (!claim(found != deviations.end(), std::string(key) + " names " + id + ", which does not count here"))
-        continue;
-      const double by = entry.at("by");
-      claim(std::abs(by - found->second) <= replay_error,
-            std::string(key) + ": " + id + " is off by " + std::to_string(found->second));
+      const auto found = tie_of_.find(id);
+      if (!claim(found != tie_of_.end(), std::string(key) + " names " + id + ", which does not count here")) continue;
+      const double by = entry.at("by"), seen = off_[found->second];
+      claim(std::abs(by - seen) <= replay_error, std::string(key) + ": " + id + " is off by " + std::to_string(seen));
     }
-    for (const Relation* relation : edited_relations(part_)) {
-      const bool off = deviations.at(relation->id) > exact + replay_error;
-      claim(!off || named.count(relation->id) > 0, std::string(key) + " leaves out " + relation->id);
+    for (const std::size_t t : edited_ties(part_)) {
+      const std::string& id = ties_[t].relation().id;
+      claim(off_[t] <= exact + replay_error || named.count(id) > 0, std::string(key) + " leaves out " + id);
     }
   }
 
-  void left_broken(const json& step, const std::string& kind, const Deviations& after) {
+  void left_broken(const json& step, const std::string& kind) {
     std::set<std::string> listed;
     for (const std::string id : step.at("left_broken")) listed.insert(id);
-    const double allowed = moves_ ? both_edited : one_edited;
     for (const json& entry : step.at("result")) {
       const std::string id = entry.at("relation");
-      const double by = after.count(id) > 0 ? after.at(id) : 0;
+      const auto found = tie_of_.find(id);
+      const double by = found != tie_of_.end() ? off_[found->second] : 0;
+      const double allowed = found != tie_of_.end() ? tolerance(ties_[found->second].relation(), moved_) : 0;
       if (by > allowed + replay_error && kind != "left_alone") claim(listed.count(id) == 1, id + " is broken as well");
       if (by < allowed - replay_error) claim(listed.count(id) == 0, id + " is not broken");
       listed.erase(id);
@@ -257,28 +277,32 @@ class TraceChecker {
 
   void ending() {
     const std::string stop = trace_.at("stop");
-    const Deviations deviations = measure();
-    for (const std::string& part : active_) {
-      if (waits(part)) {
-        claim(urgency(part, deviations, exact + replay_error).second == 0, part + " is pulled at but was never edited");
-      }
+    for (const PartIndex part : active_) {
+      if (!waits(part)) continue;
+      claim(urgency(part, exact + replay_error).second == 0, id(part) + " is pulled at but was never edited");
     }
-    const bool all = std::all_of(active_.begin(), active_.end(), [&](const auto& id) { return edited_.count(id) > 0; });
+    const bool all = std::all_of(active_.begin(), active_.end(), [&](PartIndex p) { return edited_.count(p) > 0; });
     if (stop.rfind("every part", 0) == 0) claim(all, "not every part is edited");
   }
 
   const Shape& shape_;
+  const Replay replay_;
+  const Program& program_;
   const Layer& layer_;
   std::size_t number_;
   const json& trace_;
   CheckReport& report_;
-  Program replayed_;  ///< with the statements of the steps so far
-  std::string place_, part_;
-  bool moves_ = false;
-  std::vector<double> samples_;
-  std::set<std::string> disabled_, dissolved_, active_, held_, edited_;
-  std::vector<const Relation*> relations_;
-  std::map<std::string, std::size_t> left_alone_;  ///< with the number of relations to edited parts then
+  std::string place_;
+  PartIndex part_;                  ///< of the step
+  std::vector<Values> values_;      ///< of every sample
+  std::vector<Scene> start_, now_;  ///< at every sample: when the layer begins, and with the steps so far
+  std::vector<Tie> ties_;           ///< what the search must follow
+  std::vector<double> off_;         ///< how far each is off now, at worst
+  std::map<std::string, std::size_t> tie_of_;
+  PartData<std::vector<std::size_t>> ties_of_;
+  std::set<RelationIndex> disabled_;
+  std::set<PartIndex> active_, held_, edited_, moved_;
+  std::map<PartIndex, std::size_t> left_alone_;  ///< with the number of ties to edited parts then
   std::set<std::size_t> used_;
 };
 
@@ -291,7 +315,8 @@ void check_trace(const Shape& shape, const Program& program, std::size_t layer, 
     TraceChecker(shape, program, layer, trace, report).run();
   } catch (const nlohmann::json::exception& error) {
     // A trace is untrusted: a missing or mistyped field is a finding, not a crash.
-    report.findings.push_back({"trace", std::string("not of the format: ") + error.what()});
+    report.findings.push_back({"trace", std::string("not of the format: ") + error.what(),
+                               "give the trace that parsel propagate --trace wrote"});
   }
 }
 

@@ -43,12 +43,6 @@ Vec3 axis_of(const Box& box, int axis) {
   return feature_centre(box, plus) - feature_centre(box, minus);
 }
 
-Mat3 rotation(const Vec3& n, double angle) {
-  Mat3 skew;
-  skew << 0, -n.z(), n.y(), n.z(), 0, -n.x(), -n.y(), n.x(), 0;
-  return std::cos(angle) * Mat3::Identity() + std::sin(angle) * skew + (1 - std::cos(angle)) * n * n.transpose();
-}
-
 /// Every geometric operator is p → o + M (p - o) + t.
 struct Affine {
   Mat3 matrix = Mat3::Identity();
@@ -74,17 +68,6 @@ bool in_feature(int k, const LocalTriple& feature) {
     if (feature[axis] == -side) return false;
   }
   return true;
-}
-
-std::array<double, 8> blend(const Vec3& u) {
-  std::array<double, 8> weights;
-  for (int k = 0; k < 8; ++k) {
-    const double x = k % 2 == 1 ? (1 + u.x()) / 2 : (1 - u.x()) / 2;
-    const double y = k / 2 % 2 == 1 ? (1 + u.y()) / 2 : (1 - u.y()) / 2;
-    const double z = k / 4 == 1 ? (1 + u.z()) / 2 : (1 - u.z()) / 2;
-    weights[static_cast<std::size_t>(k)] = x * y * z;
-  }
-  return weights;
 }
 
 Vec3 blended(const Box& box, const Vec3& u) {
@@ -114,64 +97,58 @@ Vec3 inverse_blend(const Box& box, const Vec3& point) {
 
 class Stage {
  public:
-  Stage(const Shape& shape, Scene& scene) : shape_(shape), scene_(scene) {}
+  Stage(const Replay& replay, Scene& scene) : replay_(replay), shape_(replay.shape()), scene_(scene) {}
 
-  void run(const Layer& layer, const std::map<std::string, double>& parameters) {
-    const Scene start = scene_;
-    for (const Statement& s : layer.statements) {
-      if (s.op == Op::keep_fixed) continue;
-      const double value = value_of(s.amount.text(), parameters);
-      const double amount = std::isfinite(value) ? value : 0;
-      if (s.op == Op::change_count || s.op == Op::change_delta) {
-        const Relation& relation = shape_.relations[*shape_.find_relation(s.relation)];
-        edit_group(s.op, s.anchor, relation, amount);
-        copy_to_members(relation);
-        continue;
-      }
-      bool degenerate = false;
-      const auto direction = [&](const std::optional<DirectionReference>& reference) -> Vec3 {
-        if (!reference) return Vec3::Zero();
-        Vec3 v;
-        if (const auto* axis = std::get_if<PartAxis>(&*reference)) {
-          v = axis_of(start.parts.at(shape_.parts[*shape_.find_part(axis->part)].id), axis->axis);
-        } else {
-          v = std::get<Vec3>(*reference);
-        }
-        if (v.norm() < 1e-12) degenerate = true;
-        return v / v.norm();
-      };
-      Vec3 origin = Vec3::Zero();
-      if (s.origin) {
-        if (const auto* at = std::get_if<PartPoint>(&*s.origin)) {
-          origin = feature_centre(start.parts.at(shape_.parts[*shape_.find_part(at->part)].id), at->at);
-        } else {
-          origin = std::get<Vec3>(*s.origin);
-        }
-      }
-      const Vec3 d = direction(s.direction);
-      const Vec3 n = direction(s.normal);
-      if (degenerate) continue;
-      edit_part(shape_.parts[*shape_.find_part(s.part)], s.feature, affine_of(s.op, origin, d, n, amount));
+  /// `value` of the statement's amount.
+  void run(const Statement& s, double value, const Scene& start) {
+    const double amount = std::isfinite(value) ? value : 0;
+    if (s.op == Op::change_count || s.op == Op::change_delta) {
+      const RelationIndex group = *replay_.relation(s.relation);
+      edit_group(s.op, s.anchor, group, amount);
+      copy_to_members(group);
+      return;
     }
+    bool degenerate = false;
+    const auto direction = [&](const std::optional<DirectionReference>& reference) -> Vec3 {
+      if (!reference) return Vec3::Zero();
+      Vec3 v;
+      if (const auto* axis = std::get_if<PartAxis>(&*reference)) {
+        v = axis_of(start.parts[*replay_.part(axis->part)], axis->axis);
+      } else {
+        v = std::get<Vec3>(*reference);
+      }
+      if (v.norm() < 1e-12) degenerate = true;
+      return v / v.norm();
+    };
+    Vec3 origin = Vec3::Zero();
+    if (s.origin) {
+      if (const auto* at = std::get_if<PartPoint>(&*s.origin)) {
+        origin = feature_centre(start.parts[*replay_.part(at->part)], at->at);
+      } else {
+        origin = std::get<Vec3>(*s.origin);
+      }
+    }
+    const Vec3 d = direction(s.direction);
+    const Vec3 n = direction(s.normal);
+    if (degenerate) return;
+    edit_part(*replay_.part(s.part), s.feature, affine_of(s.op, origin, d, n, amount));
   }
 
  private:
-  void edit_part(const Part& part, const LocalTriple& feature, const Affine& map) {
-    Box& box = scene_.parts.at(part.id);
+  void edit_part(PartIndex p, const LocalTriple& feature, const Affine& map) {
+    const Part& part = shape_.parts[p];
+    Box& box = scene_.parts[p];
     const Box before = box;
     for (int k = 0; k < 8; ++k) {
       if (in_feature(k, feature)) box[static_cast<std::size_t>(k)] = map(before[static_cast<std::size_t>(k)]);
     }
     if (!part.group) return;
-    const Relation& relation = shape_.relations[*part.group];
-    Group& group = scene_.groups.at(relation.id);
+    Group& group = scene_.groups[*part.group];
     if (part.is_virtual()) {
-      carry_group(relation, group, before, box, feature, map);
-      return copy_to_members(relation);
+      carry_group(shape_.relations[*part.group], group, before, box, feature, map);
+      return copy_to_members(*part.group);
     }
-    for (std::size_t k = 0; k < relation.parts.size(); ++k) {
-      if (shape_.parts[relation.parts[k]].id == part.id) group.instances[std::min(k, group.instances.size() - 1)] = box;
-    }
+    group.instances[std::min(replay_.place(p), group.instances.size() - 1)] = box;
   }
 
   void carry_group(const Relation& relation, Group& group, const Box& before, const Box& after,
@@ -205,15 +182,17 @@ class Stage {
     return arm - arm.dot(group.axis) * group.axis;
   }
 
-  void copy_to_members(const Relation& relation) {
-    const Group& group = scene_.groups.at(relation.id);
-    for (std::size_t k = 0; k < relation.parts.size(); ++k) {
-      scene_.parts.at(shape_.parts[relation.parts[k]].id) = group.instances[std::min(k, group.instances.size() - 1)];
+  void copy_to_members(RelationIndex r) {
+    const std::vector<PartIndex>& members = shape_.relations[r].parts;
+    const Group& group = scene_.groups[r];
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      scene_.parts[members[k]] = group.instances[std::min(k, group.instances.size() - 1)];
     }
   }
 
-  void edit_group(Op op, Anchor anchor, const Relation& relation, double amount) {
-    Group& group = scene_.groups.at(relation.id);
+  void edit_group(Op op, Anchor anchor, RelationIndex r, double amount) {
+    const Relation& relation = shape_.relations[r];
+    Group& group = scene_.groups[r];
     const int n = static_cast<int>(group.instances.size());
     const double added = std::floor(amount + 1e-9);
     const int count = static_cast<int>(std::min(std::max(n + added, 1.0), 1000.0));
@@ -228,7 +207,7 @@ class Stage {
   }
 
   void move_sides(const Translation& line, const Vec3& with_start, const Vec3& with_end) {
-    Box& parent = scene_.parts.at(shape_.parts[line.parent].id);
+    Box& parent = scene_.parts[line.parent];
     for (int k = 0; k < 8; ++k) {
       const int side = (k >> line.axis) % 2 == 1 ? 1 : -1;
       parent[static_cast<std::size_t>(k)] += side == line.direction ? with_end : with_start;
@@ -274,6 +253,7 @@ class Stage {
         places.push_back(group.start + j * (group.end - group.start) / (count - 1));
       }
     }
+    group.recounted = true;
     const Box original = group.instances[static_cast<std::size_t>(copied)];
     const int source = group.source[static_cast<std::size_t>(copied)];
     const Vec3 from = first + copied * delta;
@@ -288,7 +268,7 @@ class Stage {
 
   void space_ring(const Rotation& ring, Group& group, double amount) {
     for (Box& instance : group.instances) shift(instance, amount * spoke(group, instance));
-    Box& parent = scene_.parts.at(shape_.parts[ring.parent].id);
+    Box& parent = scene_.parts[ring.parent];
     const Box before = parent;
     for (int axis = 0; axis < 3; ++axis) {
       const Vec3 along = axis_of(before, axis);
@@ -302,6 +282,7 @@ class Stage {
   }
 
   static void count_ring(Group& group, int count) {
+    group.recounted = true;
     const Box original = group.instances[0];
     group.instances.assign(static_cast<std::size_t>(count), original);
     const int source = group.source[0];  // assign() must not be given one of its own elements
@@ -314,100 +295,80 @@ class Stage {
     }
   }
 
+  const Replay& replay_;
   const Shape& shape_;
   Scene& scene_;
 };
 
-double largest(const Vec3& v) {
-  return v.cwiseAbs().maxCoeff();
-}
-
 }  // namespace
 
-Box box_of(const Corners& corners) {
-  Box box;
-  for (int k = 0; k < 8; ++k) box[static_cast<std::size_t>(k)] = corners.row(k).transpose();
-  return box;
+Replay::Replay(const Shape& shape, const Program& program)
+    : shape_(&shape), program_(&program), places_(shape.parts.size()) {
+  for (const Layer& layer : program.layers) {
+    std::vector<std::string>& texts = texts_.emplace_back();
+    for (const Statement& statement : layer.statements) texts.push_back(statement.amount.text());
+  }
+  for (const PartIndex p : shape.parts.indices()) parts_[shape.parts[p].id] = p;
+  for (const RelationIndex r : shape.relations.indices()) {
+    relations_[shape.relations[r].id] = r;
+    if (!shape.relations[r].is_group()) continue;
+    const std::vector<PartIndex>& members = shape.relations[r].parts;
+    for (std::size_t k = 0; k < members.size(); ++k) places_[members[k]] = k;
+  }
 }
 
-Scene scene_of(const Shape& shape, const Program& program, std::size_t layers,
-               const std::map<std::string, double>& parameters) {
+std::optional<PartIndex> Replay::part(const std::string& name) const {
+  const auto found = parts_.find(name);
+  return found == parts_.end() ? shape_->find_part(name) : std::optional(found->second);  // "node:3" is a name as well
+}
+
+std::optional<RelationIndex> Replay::relation(const std::string& id) const {
+  const auto found = relations_.find(id);
+  return found == relations_.end() ? std::nullopt : std::optional(found->second);
+}
+
+Scene Replay::rest() const {
   Scene scene;
-  for (const Part& part : shape.parts) scene.parts[part.id] = box_of(part.hexahedron.corners);
-  for (const Relation& relation : shape.relations) {
-    if (!relation.is_group()) continue;
+  for (const Part& part : shape_->parts) scene.parts.push_back(box_of(part.hexahedron.corners));
+  for (const Relation& relation : shape_->relations) {
     Group group;
-    for (const PartIndex p : relation.parts) {
-      group.instances.push_back(box_of(shape.parts[p].hexahedron.corners));
-      group.source.push_back(static_cast<int>(group.source.size()));
+    if (relation.is_group()) {
+      for (const PartIndex p : relation.parts) {
+        group.instances.push_back(scene.parts[p]);
+        group.source.push_back(static_cast<int>(group.source.size()));
+      }
     }
     if (const auto* line = std::get_if<Translation>(&relation.detail)) {
       group.start = line->start;
       group.end = line->end;
-    } else {
-      const auto& ring = std::get<Rotation>(relation.detail);
-      group.centre = ring.centre;
-      group.axis = ring.axis;
-      group.radius = ring.radius;
+    } else if (const auto* ring = std::get_if<Rotation>(&relation.detail)) {
+      group.centre = ring->centre;
+      group.axis = ring->axis;
+      group.radius = ring->radius;
     }
-    scene.groups[relation.id] = std::move(group);
+    scene.groups.push_back(std::move(group));
   }
-  Stage stage(shape, scene);
-  for (std::size_t l = 0; l < layers; ++l) stage.run(program.layers[l], parameters);
   return scene;
 }
 
-double deviation_of(const Shape& shape, const Relation& relation, const Scene& scene) {
-  double worst = 0;
-  if (relation.is_group()) {
-    const Group& group = scene.groups.at(relation.id);
-    const auto n = static_cast<int>(group.instances.size());
-    for (int i = 1; i < n; ++i) {
-      const Mat3 turn = rotation(group.axis, 2 * pi * i / n);
-      for (std::size_t k = 0; k < 8; ++k) {
-        const Vec3& first = group.instances[0][k];
-        const Vec3 expected = relation.kind == RelationKind::translation
-                                  ? Vec3(first + i * (group.end - group.start) / (n - 1))
-                                  : Vec3(group.centre + turn * (first - group.centre));
-        worst = std::max(worst, largest(group.instances[static_cast<std::size_t>(i)][k] - expected));
-      }
-    }
-    return worst;
-  }
-  const Part& part_a = shape.parts[relation.parts[0]];
-  const Part& part_b = shape.parts[relation.parts[1]];
-  const Box& a = scene.parts.at(part_a.id);
-  const Box& b = scene.parts.at(part_b.id);
-  if (const auto* mirror = std::get_if<Reflection>(&relation.detail)) {
-    for (std::size_t k = 0; k < 8; ++k) {
-      const Vec3& p = a[static_cast<std::size_t>(mirror->corner_map[k])];
-      const Vec3 image = p - 2 * (p - mirror->origin).dot(mirror->normal) * mirror->normal;
-      worst = std::max(worst, largest(b[k] - image));
-    }
-    return worst;
-  }
-  const auto& attachment = std::get<Attachment>(relation.detail);
-  const Box rest_a = box_of(part_a.hexahedron.corners);
-  const Box rest_b = box_of(part_b.hexahedron.corners);
-  for (std::size_t i = 0; i < attachment.points.size(); ++i) {
-    const Vec3 moved_a = blended(a, attachment.local_a[i]) - blended(rest_a, attachment.local_a[i]);
-    const Vec3 moved_b = blended(b, attachment.local_b[i]) - blended(rest_b, attachment.local_b[i]);
-    worst = std::max(worst, largest(moved_a - moved_b));
-  }
-  return worst;
+double Replay::amount(std::size_t layer, std::size_t statement, const Values& parameters) const {
+  return value_of(texts_[layer][statement], parameters);
 }
 
-double smallest_volume(const Box& box, const Box& rest) {
-  const auto at_corner = [](const Box& b, int k) {
-    Mat3 edges;
-    for (int axis = 0; axis < 3; ++axis) {
-      edges.col(axis) = b[static_cast<std::size_t>(k | (1 << axis))] - b[static_cast<std::size_t>(k & ~(1 << axis))];
-    }
-    return edges.determinant();
-  };
-  double smallest = 1e300;
-  for (int k = 0; k < 8; ++k) smallest = std::min(smallest, at_corner(box, k) / at_corner(rest, k));
-  return smallest;
+void Replay::run(std::size_t layer, std::size_t statement, const Scene& start, const Values& parameters,
+                 Scene& scene) const {
+  const Statement& s = program_->layers[layer].statements[statement];
+  if (s.op != Op::keep_fixed) Stage(*this, scene).run(s, amount(layer, statement, parameters), start);
+}
+
+Scene Replay::scene(std::size_t layers, const Values& parameters) const {
+  Scene scene = rest();
+  for (std::size_t l = 0; l < layers; ++l) {
+    const Scene start = scene;
+    const std::size_t statements = program_->layers[l].statements.size();
+    for (std::size_t i = 0; i < statements; ++i) run(l, i, start, parameters, scene);
+  }
+  return scene;
 }
 
 }  // namespace parsel::replay

@@ -2,6 +2,8 @@
 #include "core/export/apply.h"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <iostream>
 
 #include "core/cli/command.h"
@@ -25,9 +27,21 @@ Result<std::vector<PartIndex>> parts_of(const Shape& shape, const std::string& l
   return parts;
 }
 
+/// A model may replace an older one, but nothing else: a slip of the hand would cost somebody's program or notes.
+Status replaces_a_model(const Arguments& arguments) {
+  const std::string path = arguments.option("-o");
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 4> magic{};
+  if (arguments.has("--force") || !file.read(magic.data(), 1)) return success();  // not there, or empty
+  file.read(magic.data() + 1, magic.size() - 1);
+  if (std::string_view(magic.data(), magic.size()) == "glTF") return success();
+  return Error{"cli", "-o " + path, "the file is there and is no GLB", "name another file, or add --force"};
+}
+
 int run(const Arguments& arguments) {
   if (arguments.positional.size() != 2) return misuse("apply takes a model and a program");
   if (!arguments.has("-o")) return misuse("apply needs -o for the file that it writes");
+  if (const Status allowed = replaces_a_model(arguments); !allowed.ok()) return refuse(allowed.error());
   const auto model = load_model(arguments.positional[0]);
   if (!model) return refuse(model.error());
   const Shape& shape = model->abstraction.shape;
@@ -59,10 +73,11 @@ int run(const Arguments& arguments) {
 extern const Command apply_command;
 const Command apply_command = {
     "apply",
-    "MODEL.glb PROGRAM [--set x1=0.2]… [--animate x1] [--only part,part] -o OUT.glb",
-    "Writes the model as the program edits it (--animate: with an animation that plays the parameter).",
+    "MODEL.glb PROGRAM [--set x1=0.2]… [--animate x1] [--only part,part] [--force] -o OUT.glb",
+    "Writes the model as the program edits it (--animate: with an animation that plays the parameter; --force: over "
+    "the model that it reads, or over a file that is no GLB).",
     {"--set", "--animate", "--only", "-o"},
-    {},
+    {"--force"},
     run};
 
 }  // namespace parsel::cli

@@ -31,7 +31,7 @@ int run(const Arguments& arguments) {
   const int written = write_json(arguments, to_json(report));
   if (written != exit_done || report.accepted()) return written;
   for (const Finding& finding : report.findings)
-    std::cerr << "check: " << finding.place << ": " << finding.text << '\n';
+    std::cerr << "check: " << finding.place << ": " << finding.text << "; " << finding.fix << ".\n";
   return exit_refused;
 }
 
@@ -39,7 +39,7 @@ int run(const Arguments& arguments) {
 
 extern const Command check_command;
 const Command check_command = {"check",
-                               "MODEL.glb PROGRAM.json [--trace TRACE.json] [-o REPORT.json]",
+                               "MODEL.glb|SHAPE.json PROGRAM [--trace TRACE.json] [-o REPORT.json]",
                                "Checks a program's claims, and those of its trace, by independent means.",
                                {"--trace", "-o"},
                                {},

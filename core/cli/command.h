@@ -45,6 +45,10 @@ int refuse(const Error& error);
 /// Prints a usage message on stderr and returns exit_usage.
 int misuse(std::string_view message);
 
+/// Whether the file that `option` names may be written: it is none of the files that the command reads, unless --force
+/// is given. Done for every -o before a command runs.
+Status may_write(const Arguments& arguments, const std::string& option);
+
 Result<std::string> read_file(const std::string& path);
 Status write_file(const std::string& path, std::string_view bytes);
 /// JSON to `-o` when given, else to stdout.

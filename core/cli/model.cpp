@@ -7,6 +7,18 @@
 
 namespace parsel::cli {
 
+namespace {
+
+/// What a file that is no model is, when one of our commands wrote it; empty for what others wrote.
+std::string own_format(const std::string& bytes) {
+  for (const std::string name : {"shape", "program", "edit", "trace"}) {
+    if (bytes.find("\"parsel/" + name + '"') != std::string::npos) return name;
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<Model> load_model(const std::string& path) {
   Result<std::string> bytes = read_file(path);
   if (!bytes.ok()) return bytes.error();
@@ -23,6 +35,10 @@ Result<Model> load_model(const std::string& path) {
   }
   Result<Abstraction> abstraction = abstract_shape(model.bytes, file.stem().string(), model.buffers);
   if (!abstraction.ok()) {
+    if (const std::string format = own_format(model.bytes); !format.empty()) {
+      return Error{"cli", path, "it is of the format parsel/" + format + ", not a model",
+                   "give the .glb or .gltf file"};
+    }
     Error error = abstraction.error();
     error.place = path + (error.place.empty() ? "" : ", " + error.place);
     return error;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -24,6 +25,19 @@ int refuse(const Error& error) {
 int misuse(std::string_view message) {
   std::cerr << "parsel: " << message << " (parsel --help lists the commands)\n";
   return exit_usage;
+}
+
+Status may_write(const Arguments& arguments, const std::string& option) {
+  if (!arguments.has(option) || arguments.has("--force")) return success();
+  const std::string path = arguments.option(option);
+  const auto is_read = [&](const std::string& other) {
+    std::error_code none;  // a file that is not there is no other file
+    return std::filesystem::equivalent(path, other, none);
+  };
+  bool taken = std::any_of(arguments.positional.begin(), arguments.positional.end(), is_read);
+  for (const auto& [name, value] : arguments.options) taken = taken || (name != option && is_read(value));
+  if (!taken) return success();
+  return Error{"cli", option + " " + path, "the file is read by the same command", "write to another file"};
 }
 
 Result<std::string> read_file(const std::string& path) {
@@ -107,6 +121,7 @@ int run(int argc, char** argv) {
       arguments.options.emplace(argument, argv[++i]);
     }
   }
+  if (const Status allowed = may_write(arguments, "-o"); !allowed.ok()) return refuse(allowed.error());
   return command->run(arguments);
 }
 

@@ -55,7 +55,7 @@ int run(const Arguments& arguments) {
 extern const Command prompt_command;
 const Command prompt_command = {
     "prompt",
-    "MODEL.glb --request TEXT (--task TASK [--relation ID] [-o PROMPT.md] | --all DIR) [--mention PART]…",
+    "MODEL.glb|SHAPE.json --request TEXT (--task TASK [--relation ID] [-o PROMPT.md] | --all DIR) [--mention PART]…",
     "Prints what a language model is asked (--all: every prompt of the request as DIR/<hash>.md).",
     {"--request", "--task", "--relation", "--mention", "--all", "-o"},
     {},

@@ -11,6 +11,7 @@ namespace {
 
 int run(const Arguments& arguments) {
   if (arguments.positional.size() != 2) return misuse("propagate takes a model and an edit");
+  if (const Status allowed = may_write(arguments, "--trace"); !allowed.ok()) return refuse(allowed.error());
   const Result<Shape> shape = read_shape(arguments.positional[0]);
   if (!shape.ok()) return refuse(shape.error());
   const Result<EditRequest> request = read_edit(arguments.positional[1]);

@@ -35,7 +35,7 @@ int run(const Arguments& arguments) {
 
 extern const Command reply_command;
 const Command reply_command = {"reply",
-                               "MODEL.glb --task TASK [--relation ID] REPLY.txt… [-o VOTES.json]",
+                               "MODEL.glb|SHAPE.json --task TASK [--relation ID] REPLY.txt… [-o VOTES.json]",
                                "Reads the replies to one prompt and counts them as votes.",
                                {"--task", "--relation", "-o"},
                                {},

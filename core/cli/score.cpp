@@ -26,7 +26,7 @@ int run(const Arguments& arguments) {
 
 extern const Command score_command;
 const Command score_command = {"score",
-                               "MODEL.glb --truth PROGRAM.json --program PROGRAM.json [-o SCORE.json]",
+                               "MODEL.glb|SHAPE.json --truth PROGRAM.json --program PROGRAM.json [-o SCORE.json]",
                                "Compares a program with the true one: operators, geometry, relations.",
                                {"--truth", "--program", "-o"},
                                {},

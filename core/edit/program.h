@@ -87,11 +87,14 @@ std::optional<RelationStatus> relation_status(std::string_view text);
 std::string_view to_string(Proof proof);
 std::optional<Proof> proof(std::string_view text);
 
-/// What a program may hold, however it was made. Bytes are those of UTF-8.
+/// What a program may hold, whoever made it: writers keep to it as readers do (readable.h), and
+/// web/src/program/schema.ts has the same numbers (tests/web/limits.test.ts compares them). Bytes are those of UTF-8.
 struct ProgramLimits {
   static constexpr std::size_t layers = 100;
   static constexpr std::size_t statements = 10'000;  ///< in the whole program
-  static constexpr std::size_t reports = 10'000;     ///< a layer
+  /// A layer: one for each relation that an edit may touch. The largest model that opens has 2,000 parts; a field of as
+  /// many boxes on a board has 11,800 relations. So many reports still fit text_bytes.
+  static constexpr std::size_t reports = 100'000;
   static constexpr std::size_t why_relations = 256;  ///< a statement
   static constexpr std::size_t name_bytes = 200;     ///< ids and names
   static constexpr std::size_t request_bytes = 4'096;

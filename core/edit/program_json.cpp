@@ -239,7 +239,10 @@ void check_sizes(const json& layers) {
         array(member(layers[i], place, "statements"), place + "/statements", ProgramLimits::statements).size();
   }
   if (statements > ProgramLimits::statements) {
-    refuse("/layers", "it has " + std::to_string(statements) + " statements, more than 10000", "split the program");
+    refuse(
+        "/layers",
+        "it has " + std::to_string(statements) + " statements, more than " + std::to_string(ProgramLimits::statements),
+        "split the program");
   }
 }
 

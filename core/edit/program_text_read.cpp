@@ -226,12 +226,13 @@ class Reader {
     Layer& last = program_.layers.back();
     if (!op) {
       if (last.relations.size() == ProgramLimits::reports)
-        line.fail(start, "there are more than 10000 reports", "remove some");
+        line.fail(start, "there are more than " + std::to_string(ProgramLimits::reports) + " reports", "remove some");
       last.relations.push_back(report(line));
       return;
     }
     if (++statements_ > ProgramLimits::statements)
-      line.fail(start, "there are more than 10000 statements", "split the program");
+      line.fail(start, "there are more than " + std::to_string(ProgramLimits::statements) + " statements",
+                "split the program");
     last.statements.push_back(statement(line, *op, start));
   }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <unordered_map>
 
 #include "core/amount/amount_range.h"
 #include "core/amount/number.h"
@@ -27,10 +28,14 @@ struct Refusal {
 
 class Checker {
  public:
-  Checker(const Program& program, const Shape& shape) : program_(program), shape_(shape) {}
+  Checker(const Program& program, const Shape& shape) : program_(program), shape_(shape) {
+    for (const PartIndex p : shape.parts.indices()) parts_[shape.parts[p].id] = p;
+    for (const RelationIndex r : shape.relations.indices()) relations_[shape.relations[r].id] = r;
+  }
 
   void run() {
-    if (program_.layers.size() > ProgramLimits::layers) refuse("/layers", "there are more than 100 layers", "split it");
+    if (program_.layers.size() > ProgramLimits::layers)
+      refuse("/layers", "there are more than " + std::to_string(ProgramLimits::layers) + " layers", "split it");
     parameters();
     std::size_t statements = 0;
     for (std::size_t l = 0; l < program_.layers.size(); ++l) {
@@ -38,10 +43,15 @@ class Checker {
       const std::string place = "/layers/" + std::to_string(l);
       statements += layer.statements.size();
       if (statements > ProgramLimits::statements) {
-        refuse(place + "/statements", "there are more than 10000 statements", "split the program");
+        refuse(place + "/statements",
+               "there are more than " + std::to_string(ProgramLimits::statements) + " statements", "split the program");
       }
       for (std::size_t i = 0; i < layer.statements.size(); ++i) {
         statement(layer.statements[i], place + "/statements/" + std::to_string(i));
+      }
+      if (layer.relations.size() > ProgramLimits::reports) {
+        refuse(place + "/relations", "there are more than " + std::to_string(ProgramLimits::reports) + " reports",
+               "leave some out");
       }
       for (std::size_t i = 0; i < layer.relations.size(); ++i) {
         relation(layer.relations[i].id, place + "/relations/" + std::to_string(i) + "/id");
@@ -72,15 +82,17 @@ class Checker {
   }
 
   PartIndex part(const std::string& id, const std::string& place) const {
-    const auto found = shape_.find_part(id);
+    if (const auto known = parts_.find(id); known != parts_.end()) return known->second;
+    const auto found = shape_.find_part(id);  // "node:3" is a name as well
     if (!found) refuse(place, "the shape has no part " + shown(id), "name a part that parsel inspect lists");
     return *found;
   }
 
   RelationIndex relation(const std::string& id, const std::string& place) const {
-    const auto found = shape_.find_relation(id);
-    if (!found) refuse(place, "the shape has no relation " + shown(id), "name a relation that parsel inspect lists");
-    return *found;
+    const auto found = relations_.find(id);
+    if (found == relations_.end())
+      refuse(place, "the shape has no relation " + shown(id), "name a relation that parsel inspect lists");
+    return found->second;
   }
 
   void statement(const Statement& s, const std::string& place) {
@@ -184,6 +196,8 @@ class Checker {
   const Shape& shape_;
   std::vector<std::string> names_;
   std::vector<Interval> ranges_;
+  std::unordered_map<std::string, PartIndex> parts_;
+  std::unordered_map<std::string, RelationIndex> relations_;
   std::set<RelationIndex> counts_changed_;
   int program_budget_ = program_budget;
 };

@@ -31,11 +31,14 @@ nlohmann::json to_json(const EditRequest& request);
 
 /// A request with its names looked up in a shape.
 struct ResolvedRequest {
-  std::vector<Statement> seed;           ///< node:… replaced by ids
-  std::vector<PartIndex> seed_parts;     ///< whose corners seed[i] moves; the parent for group operators
-  std::set<RelationIndex> disabled;      ///< reflections and attachments; with the group relations that are dissolved
+  std::vector<Statement> seed;        ///< node:… replaced by ids
+  std::vector<PartIndex> seed_parts;  ///< whose corners seed[i] moves; the parent for group operators
+  /// Reflections and attachments, with those of instances whose group's own attachment is disabled, and the group
+  /// relations that are dissolved.
+  std::set<RelationIndex> disabled;
   std::set<RelationIndex> disabled_by_name;  ///< of these, the ones that the request itself disables
-  std::vector<RelationIndex> dissolved;  ///< groups that a seed on an instance, or "disabled", takes apart, with those whose instances hang on theirs
+  /// Groups that a seed on an instance, or "disabled", takes apart, with those whose instances hang on theirs.
+  std::vector<RelationIndex> dissolved;
   std::map<PartIndex, Hint> hints;
 };
 

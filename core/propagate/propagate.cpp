@@ -9,6 +9,7 @@
 #include "core/propagate/transfer.h"
 #include "core/prove/prove.h"
 #include "core/prove/range.h"
+#include "core/prove/slack.h"
 
 namespace parsel {
 
@@ -379,7 +380,6 @@ class Propagator {
       if (before[graph_.other(relation, part)]) add_constraints(graph_, relation, part, before, constraints);
     }
     const bool moves = !decision.chosen.rest;
-    const double allowed = moves ? delta_both_edited : delta_one_edited;
     std::vector<std::string> broken;
     for (const auto& pulled : trace.pulled_by) {
       if (pulled.by > exact) broken.push_back(pulled.relation);
@@ -388,7 +388,9 @@ class Propagator {
     for (const auto& [relation, by] : residuals(constraints, decision.chosen.motion)) {
       trace.result.push_back({id(relation), by});
       worst = std::max(worst, by);
-      if (by > allowed && !decision.left_alone) trace.left_broken.push_back(id(relation));
+      const bool other_moves = !before[graph_.other(relation, part)]->steps.empty();
+      const bool broken_by_it = slack_of(shape_.relations[relation], by, moves, other_moves) == Slack::broken;
+      if (broken_by_it && !decision.left_alone) trace.left_broken.push_back(id(relation));
     }
     trace.why = decision.chosen.why;
     trace.energy = decision.chosen.cost;

@@ -6,6 +6,7 @@
 
 #include "core/base/tolerance.h"
 #include "core/propagate/transfer.h"
+#include "core/prove/slack.h"
 
 namespace parsel {
 
@@ -408,7 +409,7 @@ double price_of_relations(const Scene& scene, const Edits& edits, PartIndex part
   for (const auto& [index, by] : residuals(constraints, motion)) {
     const Relation& relation = shape.relations[index];
     const PartIndex other = scene.graph.other(index, part);
-    const bool both = moves && !edits[other]->steps.empty();
+    const double tolerance = tolerance_of(relation, moves, !edits[other]->steps.empty());
     std::optional<ContactChange> worst;
     if (const auto& contact = scene.contacts[index]) {
       const Corners& other_rest = shape.parts[other].hexahedron.corners;
@@ -422,7 +423,7 @@ double price_of_relations(const Scene& scene, const Edits& edits, PartIndex part
         worst->lost = std::max(worst->lost, now.lost);
       }
     }
-    cost += price_of_relation(prices, relation, by, both ? delta_both_edited : delta_one_edited, worst);
+    cost += price_of_relation(prices, relation, by, tolerance, worst);
   }
   if (const auto& footing = scene.footings[part]) {
     double off = 0;

@@ -6,7 +6,13 @@
 namespace parsel {
 
 Constraint make_constraint(const Shape& shape, RelationIndex relation) {
-  Constraint constraint{&shape.relations[relation], relation, {}, {}, {}};
+  Constraint constraint{&shape.relations[relation], relation, {}, {}, {}, {}};
+  if (!constraint.relation->is_group()) {
+    for (const PartIndex p : constraint.relation->parts) {
+      const Part& part = shape.parts[p];
+      if (part.group && !part.is_virtual()) constraint.groups.push_back(*part.group);
+    }
+  }
   const auto* attachment = std::get_if<Attachment>(&constraint.relation->detail);
   if (!attachment) return constraint;
   const Corners& a = shape.parts[constraint.relation->parts[0]].hexahedron.corners;

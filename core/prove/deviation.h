@@ -5,7 +5,9 @@
 //   translation  H_i[k] - H_0[k] - i·(end - start)/(n - 1), the instances i of the group as they are now
 //   rotation     H_i[k] - centre - R(axis, i·2π/n)(H_0[k] - centre)
 //   attachment   M_a H_a - M_b H_b minus the same at rest
-// An attachment to the parent of a group is one to the parent's corners, whatever the number of instances. That start,
+// An attachment to the parent of a group is one to the parent's corners, whatever the number of instances. One of an
+// instance is judged while the instance exists: once the number has changed, all instances are copies of one at places
+// of their own, and there is no part any more that the relation could speak of. That start,
 // end and centre follow the parent and the other way round needs no constraint: every operator moves them together.
 #pragma once
 
@@ -25,11 +27,22 @@ struct Constraint {
   RelationIndex index;
   std::vector<Weights> weights_a, weights_b;  ///< attachment: of each point in its two parts
   std::vector<Vec3> at_rest;                  ///< attachment: M_a H_a - M_b H_b of the shape
+  std::vector<RelationIndex> groups;          ///< of which its parts are instances
 };
 
 Constraint make_constraint(const Shape& shape, RelationIndex relation);
 
-/// Largest deviation of a coordinate.
+/// Whether the instances that the relation ties exist: the number of their groups has not changed. For a State and a
+/// JetState.
+template <class State>
+bool exists(const Constraint& constraint, const State& state) {
+  for (const RelationIndex group : constraint.groups) {
+    if (state.groups[group].count_changed) return false;
+  }
+  return true;
+}
+
+/// Largest deviation of a coordinate; 0 when the relation does not exist in that state.
 double deviation(const Constraint& constraint, const State& state);
 
 namespace detail {
@@ -145,9 +158,11 @@ void attachment_deviations(const Constraint& constraint, const State& state, F&&
 
 }  // namespace detail
 
-/// Calls f with every coordinate of the constraint: a double for a State, a Jet for a JetState.
+/// Calls f with every coordinate of the constraint: a double for a State, a Jet for a JetState. With none when the
+/// relation does not exist in that state.
 template <class State, class F>
 void for_each_deviation(const Constraint& constraint, const State& state, F&& f) {
+  if (!exists(constraint, state)) return;
   switch (constraint.relation->kind) {
     case RelationKind::reflection:
       return detail::reflection_deviations(constraint, state, f);

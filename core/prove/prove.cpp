@@ -139,7 +139,12 @@ std::vector<RelationReport> prove_relations(const Shape& shape, const Program& p
   for (const Layer& l : applied.layers) values.push_back(l.parameter.value);
 
   std::vector<Search> searches;
-  for (const RelationIndex r : scope.relations) searches.push_back({make_constraint(shape, r)});
+  values[layer] = 0;
+  const State at_rest = evaluator(values);
+  for (const RelationIndex r : scope.relations) {
+    Constraint constraint = make_constraint(shape, r);
+    if (exists(constraint, at_rest)) searches.push_back({std::move(constraint)});
+  }
   const auto sample = [&](const std::vector<double>& xs, const std::vector<std::size_t>& wanted) {
     for (const double x : xs) {
       values[layer] = x;
@@ -162,8 +167,10 @@ std::vector<RelationReport> prove_relations(const Shape& shape, const Program& p
     return consistent && (search.upper <= search.good_enough() || search.upper <= tolerance);
   };
   open.clear();
+  std::vector<bool> certified_ones;
   for (std::size_t i = 0; i < searches.size(); ++i) {
-    if (!is_certified(searches[i])) open.push_back(i);
+    certified_ones.push_back(is_certified(searches[i]));
+    if (!certified_ones[i]) open.push_back(i);
   }
   if (!open.empty()) sample(sample_values(segments, parameter.min, parameter.max, dense_samples), open);
 
@@ -171,7 +178,7 @@ std::vector<RelationReport> prove_relations(const Shape& shape, const Program& p
   for (std::size_t i = 0; i < searches.size(); ++i) {
     const Search& search = searches[i];
     const Relation& relation = *search.constraint.relation;
-    const bool certified = std::find(open.begin(), open.end(), i) == open.end();
+    const bool certified = certified_ones[i];
     RelationReport report;
     report.id = relation.id;
     report.proof = certified ? Proof::certified : Proof::sampled;

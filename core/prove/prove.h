@@ -18,13 +18,14 @@
 
 namespace parsel {
 
-/// One report for every relation of scope_of(), in the shape's order.
+/// One report for every relation of scope_of(), in the shape's order; but none for a relation of instances that do not
+/// exist (deviation.h) while the layer's parameter is 0, because an earlier layer has changed their number.
 ///
 /// Layers 0 … `layer` are applied, later ones are not; the layer's own parameter runs over [min, max], those before it
 /// stand at their `value`. So a report holds for those values: after a change of an earlier slider it must be made
 /// anew.
 ///
-///   status  held when `worst` is within tolerance_of() the relation, else broken; disabled as `disabled` says.
+///   status  held when `worst` is within the tolerance of the relation (slack.h), else broken; disabled as `disabled` says.
 ///   worst   largest deviation of a coordinate over the range (see deviation.h), for disabled relations too.
 ///   proof   certified: `worst` is a proven upper bound, which either keeps the tolerance or exceeds a value that
 ///   really

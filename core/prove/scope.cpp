@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/tolerance.h"
+#include "core/prove/slack.h"
 
 namespace parsel {
 
@@ -12,7 +12,52 @@ bool touches(const Relation& relation, const std::set<PartIndex>& edited) {
   return std::any_of(relation.parts.begin(), relation.parts.end(), [&](PartIndex p) { return edited.count(p) > 0; });
 }
 
+/// The group that a part is an instance of, or stands for, unless it is dissolved.
+std::optional<RelationIndex> standing_group(const Part& part, const std::vector<RelationIndex>& dissolved) {
+  if (!part.group || std::find(dissolved.begin(), dissolved.end(), *part.group) != dissolved.end()) return std::nullopt;
+  return part.group;
+}
+
+/// The active part that a part goes with: the parent of its standing group, or the part itself.
+PartIndex carrier(const Shape& shape, PartIndex part, const std::vector<RelationIndex>& dissolved) {
+  const auto group = standing_group(shape.parts[part], dissolved);
+  return group ? parent_of(shape.relations[*group]) : part;
+}
+
+using Pair = std::pair<PartIndex, PartIndex>;
+Pair unordered(PartIndex a, PartIndex b) {
+  return std::minmax(a, b);
+}
+
+/// Pairs of active parts that mirror each other.
+std::set<Pair> mirrored_pairs(const Shape& shape, const std::vector<RelationIndex>& dissolved) {
+  std::set<Pair> pairs;
+  for (const RelationIndex r : shape.relations.indices()) {
+    const Relation& relation = shape.relations[r];
+    if (relation.kind == RelationKind::reflection && is_active(shape, r, dissolved))
+      pairs.insert(unordered(relation.parts[0], relation.parts[1]));
+  }
+  return pairs;
+}
+
+bool is_judged(const Shape& shape, RelationIndex r, const std::vector<RelationIndex>& dissolved,
+               const std::set<Pair>& mirrored) {
+  if (is_active(shape, r, dissolved)) return true;
+  const Relation& relation = shape.relations[r];
+  if (relation.is_group()) return false;
+  for (const PartIndex p : relation.parts) {
+    if (shape.parts[p].is_virtual() && !standing_group(shape.parts[p], dissolved)) return false;
+  }
+  const PartIndex a = carrier(shape, relation.parts[0], dissolved);
+  const PartIndex b = carrier(shape, relation.parts[1], dissolved);
+  return a != b && (relation.is_attachment() || mirrored.count(unordered(a, b)) == 0);
+}
+
 }  // namespace
+
+bool is_judged(const Shape& shape, RelationIndex relation, const std::vector<RelationIndex>& dissolved) {
+  return is_judged(shape, relation, dissolved, mirrored_pairs(shape, dissolved));
+}
 
 bool is_disabled(const Relation& relation, const std::set<std::string>& disabled) {
   return disabled.count(relation.id) > 0 || disabled.count("kind:" + std::string(to_string(relation.kind))) > 0;
@@ -45,10 +90,11 @@ Scope scope_of(const Shape& shape, const Program& program, std::size_t layer, co
     if (shape.relations[r].is_group() && is_disabled(shape.relations[r], disabled)) dissolved.insert(r);
   }
   scope.dissolved.assign(dissolved.begin(), dissolved.end());
+  const std::set<Pair> mirrored = mirrored_pairs(shape, scope.dissolved);
   for (const RelationIndex r : shape.relations.indices()) {
     const Relation& relation = shape.relations[r];
     const bool group_disabled = relation.is_group() && is_disabled(relation, disabled);
-    if (group_disabled || (is_active(shape, r, scope.dissolved) && touches(relation, scope.edited))) {
+    if (group_disabled || (touches(relation, scope.edited) && is_judged(shape, r, scope.dissolved, mirrored))) {
       scope.relations.push_back(r);
     }
   }
@@ -56,9 +102,7 @@ Scope scope_of(const Shape& shape, const Program& program, std::size_t layer, co
 }
 
 double tolerance_of(const Relation& relation, const Scope& scope) {
-  const bool all =
-      std::all_of(relation.parts.begin(), relation.parts.end(), [&](PartIndex p) { return scope.edited.count(p) > 0; });
-  return all || relation.is_group() ? delta_both_edited : delta_one_edited;
+  return tolerance_of(relation, scope.edited.count(relation.parts[0]) > 0, scope.edited.count(relation.parts[1]) > 0);
 }
 
 }  // namespace parsel

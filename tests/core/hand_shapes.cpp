@@ -134,6 +134,19 @@ Shape ring() {
   return shape;
 }
 
+Shape fan() {
+  Shape shape = ring();
+  shape.name = "fan";
+  const PartIndex motor = add_box(shape, "motor", Vec3::Zero(), {0.26, 0.2, 0.26});
+  const std::array<Vec3, 4> outwards = {Vec3(1, 0, 0), Vec3(0, 0, -1), Vec3(-1, 0, 0), Vec3(0, 0, 1)};
+  for (std::size_t k = 0; k < outwards.size(); ++k) {
+    const std::string number = std::to_string(k + 1);
+    attach(shape, "a" + std::to_string(k + 2), motor, *shape.find_part("foot_" + number), {0.26 * outwards[k]});
+  }
+  attach(shape, "a6", motor, *shape.find_part("feet"), {Vec3::Zero()});
+  return shape;
+}
+
 Statement statement(Op op, const std::string& part, const Vec3& direction, const std::string& amount,
                     const Vec3& origin, const Vec3& normal) {
   Statement s;

@@ -30,6 +30,10 @@ Shape slats();
 /// (a1).
 Shape ring();
 
+/// The ring with a motor inside it, to whose sides the feet (blades) are attached (a2 … a5: points), and to whose
+/// centre their parent is (a6: point).
+Shape fan();
+
 /// A geometric statement on a whole part, with literal origin and directions.
 Statement statement(Op op, const std::string& part, const Vec3& direction, const std::string& amount,
                     const Vec3& origin = Vec3::Zero(), const Vec3& normal = Vec3::UnitY());

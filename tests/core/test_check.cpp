@@ -43,7 +43,7 @@ std::string first_finding(const CheckReport& report) {
 
 TEST_CASE("the checker's evaluator agrees with the real one") {
   Random random(11);
-  for (const Shape& shape : {hand::chair(), hand::slats(), hand::ring()}) {
+  for (const Shape& shape : {hand::chair(), hand::slats(), hand::ring(), hand::fan()}) {
     for (int i = 0; i < 20; ++i) {
       Program program = hand::random_program(shape, random);
       for (const Relation& relation : shape.relations) {
@@ -61,18 +61,19 @@ TEST_CASE("the checker's evaluator agrees with the real one") {
         statements.push_back(hand::group_statement(Op::change_delta, relation.id, "x1", anchor));
       }
       const Evaluator evaluator(program, shape);
+      const replay::Replay replay(shape, program);
       for (const double x : {-0.35, -0.123, 0.0, 0.2, 0.35}) {
         const State state = evaluator({x});
-        const replay::Scene scene = replay::scene_of(shape, program, 1, {{"x1", x}});
+        const replay::Scene scene = replay.scene(1, {{"x1", x}});
         for (const PartIndex p : shape.parts.indices()) {
-          const replay::Box& box = scene.parts.at(shape.parts[p].id);
+          const replay::Box& box = scene.parts[p];
           for (int k = 0; k < 8; ++k) {
             CHECK((box[static_cast<std::size_t>(k)] - state.parts[p].row(k).transpose()).norm() < 1e-8);
           }
         }
         for (const RelationIndex r : shape.relations.indices()) {
           if (!shape.relations[r].is_group()) continue;
-          CHECK(scene.groups.at(shape.relations[r].id).instances.size() == state.groups[r].instances.size());
+          CHECK(scene.groups[r].instances.size() == state.groups[r].instances.size());
         }
       }
     }
@@ -95,7 +96,7 @@ TEST_CASE("the checker reads amounts as the grammar says") {
 
 TEST_CASE("genuine programs are accepted") {
   Random random(5);
-  for (const Shape& shape : {hand::chair(), hand::slats(), hand::ring()}) {
+  for (const Shape& shape : {hand::chair(), hand::slats(), hand::ring(), hand::fan()}) {
     for (int i = 0; i < 6; ++i) {
       const Program program = proven(shape, hand::random_program(shape, random));
       const CheckReport report = check_program(shape, program);
@@ -113,6 +114,49 @@ TEST_CASE("genuine programs are accepted") {
   const Program apart =
       proven(row, hand::program(row, {statement(Op::translate, "rail", Vec3::UnitZ(), "x1")}), {"t1"});
   CHECK_MESSAGE(check_program(row, apart).accepted(), first_finding(check_program(row, apart)));
+}
+
+TEST_CASE("the joints of instances must be told, as far as the instances exist") {
+  const Shape shape = hand::fan();
+  const Program wider =
+      proven(shape, hand::program(shape, {hand::group_statement(Op::change_delta, "o1", "x1", Anchor::fit),
+                                          hand::group_statement(Op::change_count, "o1", "5*x1", Anchor::fit)}));
+  const CheckReport genuine = check_program(shape, wider);
+  CHECK_MESSAGE(genuine.accepted(), first_finding(genuine));
+  CHECK(genuine.relations == 7);
+  Program silent = wider;
+  std::erase_if(silent.layers[0].relations, [](const RelationReport& report) { return report.id == "a3"; });
+  CHECK(first_finding(check_program(shape, silent)).find("a3 touches an edited part but is not reported") !=
+        std::string::npos);
+  Program bold = wider;
+  for (RelationReport& report : bold.layers[0].relations) {
+    if (report.id == "a3") report = {"a3", RelationStatus::held, 0.001, Proof::certified};
+  }
+  CHECK_FALSE(check_program(shape, bold).accepted());
+
+  Program later = hand::program(shape, {hand::group_statement(Op::change_count, "o1", "10*x1", Anchor::fit)});
+  later.layers[0].parameter.value = 0.25;
+  later.layers.push_back(hand::program(shape, {statement(Op::translate, "feet", Vec3::UnitY(), "0.1*x2")}).layers[0]);
+  later.layers[1].parameter.name = "x2";
+  for (std::size_t l = 0; l < 2; ++l) later.layers[l].relations = prove_relations(shape, later, l, {});
+  CHECK_MESSAGE(check_program(shape, later).accepted(), first_finding(check_program(shape, later)));
+  later.layers[1].relations.push_back({"a2", RelationStatus::held, 0, Proof::certified});
+  CHECK_FALSE(check_program(shape, later).accepted());
+}
+
+TEST_CASE("every finding says what would remove it") {
+  const Shape shape = hand::chair();
+  Program program = widened(shape);
+  program.layers[0].parameter.value = 3;
+  program.layers[0].relations.pop_back();
+  program.layers[0].relations[0].worst *= 2;
+  program.layers[0].statements[1].amount = parse_amount("0.3*x1+0.001").value();
+  const CheckReport report = check_program(shape, program, nlohmann::json::object(), 0);
+  CHECK(report.findings.size() >= 5);
+  for (const Finding& finding : report.findings) {
+    CAPTURE(finding.text);
+    CHECK_FALSE(finding.fix.empty());
+  }
 }
 
 TEST_CASE("programs that were tampered with are rejected") {

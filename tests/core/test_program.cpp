@@ -4,6 +4,8 @@
 
 #include "core/base/random.h"
 #include "core/edit/program_fields.h"
+#include "core/edit/readable.h"
+#include "hand_shapes.h"
 #include "tests/core/golden.h"
 
 using namespace parsel;
@@ -347,6 +349,31 @@ TEST_CASE("too many layers or statements are refused before they are read") {
   for (int i = 0; i < 10'001; ++i) text += "keep_fixed(\"a\")\n";
   CHECK(text_error(text).place == "line 10004, column 1");
   CHECK(mentions(text_error(std::string(ProgramLimits::text_bytes + 1, '\n')), "8 MiB"));
+}
+
+TEST_CASE("a layer may have as many reports as are written, and no reader takes one more") {
+  const Shape shape = hand::slats();
+  Program program = hand::program(shape, {hand::statement(Op::translate, "rail", Vec3::UnitX(), "x1")});
+  program.layers[0].relations.assign(ProgramLimits::reports,
+                                     {"a1", RelationStatus::held, 0.012345678901234, Proof::certified});
+  CHECK(readable(program, shape).ok());
+  std::string text = to_text(program);
+  CHECK(program_from_text(text).ok());
+  program.layers[0].relations.push_back(program.layers[0].relations[0]);
+  CHECK_FALSE(validate(program, shape).ok());
+  CHECK_FALSE(readable(program, shape).ok());
+  CHECK(json_error(to_json(program)).place == "/layers/0/relations");
+  text += "  relation \"a1\": held, worst 0, certified\n";
+  CHECK(mentions(text_error(text), "100000 reports"));
+}
+
+TEST_CASE("what its own reader refuses is not readable, though it makes sense for the shape") {
+  const Shape shape = hand::slats();
+  Program program = hand::program(shape, {hand::statement(Op::translate, "rail", Vec3::UnitX(), "x1")});
+  CHECK(readable(program, shape).ok());
+  program.layers[0].request = std::string(ProgramLimits::request_bytes + 1, 'a');
+  CHECK(validate(program, shape).ok());
+  CHECK_FALSE(readable(program, shape).ok());
 }
 
 TEST_CASE("deeply nested JSON is refused, not recursed into") {

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "box_shapes.h"
 #include "core/check/check.h"
 #include "core/edit/evaluate.h"
 #include "core/propagate/propagate.h"
+#include "hand_shapes.h"
 
 using namespace parsel;
 using nlohmann::json;
@@ -268,6 +270,42 @@ TEST_CASE("a part that cannot follow two neighbours follows one, and the other r
   bool any_broken = false;
   for (const TraceStep& step : found.trace.steps) any_broken = any_broken || !step.left_broken.empty();
   CHECK(any_broken);
+}
+
+TEST_CASE("next to a part that is kept fixed a gap of the wider tolerance is none that the search leaves") {
+  // The lid, which rises by up to 0.06, and the foot, which stays, hold the rod at one and the same point. Half way it
+  // would miss both by 0.03: little enough where both parts move, but the foot does not.
+  test::BoxShape s;
+  const PartIndex lid = s.box("lid", {0, 0.4, 0}, {0.3, 0.05, 0.3});
+  const PartIndex rod = s.box("rod", {0, 0, 0}, {0.03, 0.35, 0.03});
+  const PartIndex foot = s.box("foot", {0.13, 0.3, 0}, {0.13, 0.05, 0.3});
+  s.attach(lid, rod, {{0, 0.35, 0}});
+  s.attach(foot, rod, {{0, 0.35, 0}});
+  const Propagation found =
+      run(s.shape(), {{"seed", {translate("lid", Vec3::UnitY(), "0.17*x")}}, {"hints", {{"foot", "keep_fixed"}}}});
+  std::set<std::string> told;
+  for (const TraceStep& step : found.trace.steps) told.insert(step.left_broken.begin(), step.left_broken.end());
+  int broken = 0;
+  for (const RelationReport& report : found.program.layers[0].relations) {
+    CAPTURE(report.id);
+    CHECK((report.status == RelationStatus::broken) == (told.count(report.id) > 0));
+    broken += report.status == RelationStatus::broken;
+  }
+  CHECK(broken == 1);
+}
+
+TEST_CASE("a joint of a group that may come apart takes those of its instances along") {
+  const json spread = {{"op", "change_delta"}, {"relation", "o1"}, {"amount", "x"}};
+  const auto count = [](const Propagation& found, RelationStatus status) {
+    const auto& reports = found.program.layers[0].relations;
+    return std::count_if(reports.begin(), reports.end(), [&](const auto& report) { return report.status == status; });
+  };
+  const json stays = {{"motor", "keep_fixed"}};
+  const Propagation torn = run(hand::fan(), {{"seed", {spread}}, {"hints", stays}});
+  CHECK(count(torn, RelationStatus::broken) == 4);
+  const Propagation allowed = run(hand::fan(), {{"seed", {spread}}, {"hints", stays}, {"disabled", {"a6"}}});
+  CHECK(count(allowed, RelationStatus::broken) == 0);
+  CHECK(count(allowed, RelationStatus::disabled) == 5);
 }
 
 TEST_CASE("handles one above the other go with their door, though they are mirror images") {

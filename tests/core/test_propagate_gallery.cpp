@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/check/check.h"
+#include "core/edit/readable.h"
 #include "core/propagate/propagate.h"
 #include "gallery_truth.h"
+#include "told.h"
 
 using namespace parsel;
 
@@ -50,6 +52,9 @@ TEST_CASE("gallery edits end where the generator builds the edited model") {
       if (!found.ok()) FAIL(found.error().message());
       const CheckReport checked = check_program(shape, found->program, to_json(found->trace), 0);
       for (const Finding& finding : checked.findings) FAIL_CHECK(finding.place << ": " << finding.text);
+      const Status again = readable(found->program, shape);
+      if (!again.ok()) FAIL_CHECK(again.error().message());
+      for (const std::string& gap : test::untold_gaps(shape, found->program)) FAIL_CHECK(gap << " comes apart untold");
       const Layer& layer = found->program.layers[0];
       const Evaluator evaluate(found->program, shape);
       std::printf("%-16s %-22s %4zu %7.3f %7.3f ", model.id.c_str(), edit.id.c_str(), layer.statements.size(),

@@ -8,6 +8,7 @@
 #include "core/edit/evaluate.h"
 #include "core/prove/deviation.h"
 #include "core/prove/scope.h"
+#include "core/prove/slack.h"
 #include "hand_shapes.h"
 
 using namespace parsel;
@@ -146,8 +147,10 @@ TEST_CASE("a row follows its parent: spacing, count and scale keep it a row") {
   const Shape shape = hand::slats();
   const auto widened = prove(shape, hand::program(shape, {statement(Op::scale_1d, "rail", Vec3::UnitX(), "0.48*x1"),
                                                           statement(Op::scale_1d, "slats", Vec3::UnitX(), "x1")}));
-  CHECK(ids(widened) == std::vector<std::string>{"t1", "a1"});
+  CHECK(ids(widened) == std::vector<std::string>{"t1", "a1", "a2", "a3"});
   check_proven(find(widened, "t1"), held, 0);
+  // The outer slats move by 0.2·x, the rail at their place by 0.2·0.48·x.
+  check_proven(find(widened, "a2"), held, 0.2 * 0.52 * 0.35);
   // The parent's corners move by 0.24·x, the rail at their place by 0.24·0.48·x.
   check_proven(find(widened, "a1"), broken, 0.24 * 0.52 * 0.35);
 
@@ -185,7 +188,7 @@ TEST_CASE("editing one instance takes the group apart; its own attachments count
   CHECK(ids(prove(shape, program, {"t1"})) == std::vector<std::string>{"t1", "a2"});
   // A disabled group dissolves even when nobody edits its instances, and is named.
   const Program rail = hand::program(shape, {statement(Op::translate, "rail", Vec3::UnitZ(), "x1")});
-  CHECK(ids(prove(shape, rail)) == std::vector<std::string>{"a1"});
+  CHECK(ids(prove(shape, rail)) == std::vector<std::string>{"a1", "a2", "a3"});
   CHECK(ids(prove(shape, rail, {"t1"})) == std::vector<std::string>{"t1", "a2", "a3"});
 }
 
@@ -205,6 +208,74 @@ TEST_CASE("a ring stays one under radius, count and height, not under a stretch"
   CHECK(find(stretched, "o1").proof == Proof::certified);
 }
 
+TEST_CASE("the blades of a fan leave its motor, though their ring as a whole keeps all its joints") {
+  const Shape shape = hand::fan();
+  REQUIRE_MESSAGE(validate(shape).ok(), validate(shape).error().message());
+  const auto wider =
+      prove(shape, hand::program(shape, {hand::group_statement(Op::change_delta, "o1", "x1", Anchor::fit),
+                                         statement(Op::scale_2d, "plate", Vec3::UnitX(), "0.3*x1/0.34")}));
+  CHECK(ids(wider) == std::vector<std::string>{"o1", "a1", "a2", "a3", "a4", "a5", "a6"});
+  for (const std::string id : {"o1", "a1", "a6"}) check_proven(find(wider, id), held, 0);
+  // Every blade moves outwards by 0.3·x, the motor stays.
+  for (const std::string id : {"a2", "a3", "a4", "a5"}) check_proven(find(wider, id), broken, 0.3 * 0.35);
+
+  // What moves the ring and the motor alike keeps them.
+  const auto raised = prove(shape, hand::program(shape, {statement(Op::translate, "feet", Vec3::UnitY(), "x1"),
+                                                         statement(Op::translate, "motor", Vec3::UnitY(), "x1")}));
+  for (const std::string id : {"a2", "a3", "a4", "a5"}) check_proven(find(raised, id), held, 0);
+}
+
+TEST_CASE("the joint of an instance is judged as long as the instance exists") {
+  const Shape shape = hand::fan();
+  // The number changes at x = 0.2 and at x = 0⁻; until then the blades leave the motor by 0.3·x.
+  const Program program = hand::program(shape, {hand::group_statement(Op::change_delta, "o1", "x1", Anchor::fit),
+                                                hand::group_statement(Op::change_count, "o1", "5*x1", Anchor::fit)});
+  const RelationReport& report = find(prove(shape, program), "a2");
+  CHECK(report.status == broken);
+  CHECK(report.worst == doctest::Approx(0.3 * 0.2).epsilon(0.01));
+
+  // An earlier layer has changed the number: there is nothing left to speak of.
+  Program later = hand::program(shape, {hand::group_statement(Op::change_count, "o1", "10*x1", Anchor::fit)});
+  later.layers[0].parameter.value = 0.25;
+  later.layers.push_back(hand::program(shape, {statement(Op::translate, "feet", Vec3::UnitY(), "x2")}).layers[0]);
+  later.layers[1].parameter.name = "x2";
+  CHECK(ids(prove_relations(shape, later, 1, {})) == std::vector<std::string>{"o1", "a1", "a6"});
+  later.layers[0].parameter.value = 0;
+  CHECK(find(prove_relations(shape, later, 1, {}), "a2").status == broken);
+}
+
+TEST_CASE("mirror images of instances are judged where their rows do not say it already") {
+  Shape shape = hand::slats();
+  // Within the row: the row says it.
+  const RelationIndex inside = hand::mirror(shape, "r1", *shape.find_part("slat_1"), *shape.find_part("slat_3"));
+  const PartIndex left = hand::add_box(shape, "post_left", {-0.2, -0.5, 0}, {0.04, 0.1, 0.02});
+  const PartIndex right = hand::add_box(shape, "post_right", {0.2, -0.5, 0}, {0.04, 0.1, 0.02});
+  const RelationIndex posts = hand::mirror(shape, "r2", left, right);
+  const RelationIndex across = hand::mirror(shape, "r3", *shape.find_part("slat_1"), right);
+  CHECK_FALSE(is_judged(shape, inside, {}));
+  CHECK(is_judged(shape, posts, {}));
+  CHECK(is_judged(shape, across, {}));
+  CHECK(is_judged(shape, inside, {*shape.find_relation("t1")}));
+  hand::mirror(shape, "r4", *shape.find_part("slats"), right);
+  CHECK_FALSE(is_judged(shape, across, {}));
+}
+
+TEST_CASE("one rule for broken: the wider tolerance needs two parts that move") {
+  const Shape shape = hand::chair();
+  const Relation& joint = shape.relations[*shape.find_relation("a1")];
+  CHECK(slack_of(joint, 0, false, false) == Slack::tight);
+  CHECK(slack_of(joint, 0.002, true, false) == Slack::tight);
+  CHECK(slack_of(joint, 0.0072, true, false) == Slack::half);
+  CHECK(slack_of(joint, 0.0144, true, false) == Slack::one);
+  CHECK(slack_of(joint, 0.0145, true, false) == Slack::broken);
+  CHECK(slack_of(joint, 0.0145, true, true) == Slack::two);
+  CHECK(slack_of(joint, 0.0433, true, true) == Slack::two);
+  CHECK(slack_of(joint, 0.0434, true, true) == Slack::broken);
+  CHECK(slack_of(joint, std::nan(""), true, true) == Slack::broken);
+  const Shape row = hand::slats();
+  CHECK(slack_of(row.relations[*row.find_relation("t1")], 0.04, false, false) == Slack::two);
+}
+
 TEST_CASE("layers: earlier ones stand at their values, later ones are not looked at") {
   const Shape shape = hand::chair();
   Program program = hand::program(shape, {statement(Op::translate, "leg_left", Vec3::UnitX(), "x1")});
@@ -220,7 +291,7 @@ TEST_CASE("certified bounds hold for random programs on every shape") {
   Random random(7);
   int certified = 0;
   int reports = 0;
-  for (const Shape& shape : {hand::chair(), hand::slats(), hand::ring()}) {
+  for (const Shape& shape : {hand::chair(), hand::slats(), hand::ring(), hand::fan()}) {
     for (int i = 0; i < 25; ++i) {
       const Program program = hand::random_program(shape, random);
       const Evaluator evaluator(program, shape);

@@ -1,8 +1,9 @@
 // Where on the slider a relation gives way, against places known by hand.
 import { describe, expect, it } from 'vitest';
-import type { Layer, Statement } from '../../web/src/program/types';
+import { movedParts } from '../../web/src/program/edited';
+import type { Layer, Shape, Statement } from '../../web/src/program/types';
 import { looseningOf } from '../../web/src/session/loosening';
-import { twoBoxes } from './box_shapes';
+import { box, oneBox, twoBoxes } from './box_shapes';
 
 const layer = (statements: readonly Statement[], min = -0.3, max = 0.3): Layer => ({
   request: '',
@@ -19,6 +20,82 @@ const move = (part: string, amount: string): Statement => ({
 });
 const [joint] = twoBoxes.relations;
 if (joint === undefined) throw new Error('the boxes are not joined');
+
+/** Three boxes in a row along x, 0.3 apart, and a post that the first of them touches, joined at a point. */
+const spaces = [-0.3, 0, 0.3];
+const row: Shape = {
+  ...oneBox,
+  parts: [
+    box('post', 0, [-0.5, 0, 0], [0.1, 0.2, 0.1]),
+    ...spaces.map((x, i) => ({ ...box(`slat_${i}`, i + 1, [x, 0, 0], [0.1, 0.2, 0.1]), group: 't1' })),
+    {
+      ...box('slats', -1, [0, 0, 0], [0.4, 0.2, 0.1]),
+      primitive: -1,
+      virtual: true,
+      members: spaces.map((_, i) => `slat_${i}`),
+      group: 't1',
+    },
+  ],
+  relations: [
+    {
+      id: 't1',
+      kind: 'translation',
+      parts: spaces.map((_, i) => `slat_${i}`),
+      parent: 'slats',
+      start: [-0.3, 0, 0],
+      end: [0.3, 0, 0],
+      axis: 0,
+      direction: 1,
+    },
+    {
+      id: 'a1',
+      kind: 'point',
+      parts: ['post', 'slat_0'],
+      points: [[-0.4, 0, 0]],
+      local_a: [[1, 0, 0]],
+      local_b: [[-1, 0, 0]],
+    },
+  ],
+};
+const rowJoint = row.relations[1];
+if (rowJoint === undefined) throw new Error('the row is not joined');
+const ofRow = (op: 'change_delta' | 'change_count', amount: string): Statement => ({
+  op,
+  relation: 't1',
+  anchor: 'middle',
+  amount,
+});
+
+describe('the parts that statements move', () => {
+  it('are a part, or a row with its parent and every instance; what is kept fixed is not', () => {
+    const all = ['slat_0', 'slat_1', 'slat_2', 'slats'];
+    expect([...movedParts(row, [ofRow('change_delta', 'x1')])].sort()).toEqual(all);
+    expect([...movedParts(row, [move('slats', 'x1')])].sort()).toEqual(all);
+    expect([...movedParts(row, [move('node:1', 'x1')])]).toEqual(['slat_0']);
+    expect(movedParts(row, [{ op: 'keep_fixed', part: 'post' }]).size).toBe(0);
+  });
+});
+
+describe('the joint of an instance that its row takes along', () => {
+  // Half a spacing of 0.3 on either side of the middle slat: the first moves by 0.3·x.
+  const at = (beyond: number) => [beyond / 0.3, beyond / 0.3 + 0.35 / 96 + 1e-9] as const;
+
+  it('has the tolerance of one edited part while the other stays, and of both when both move', () => {
+    const found = looseningOf(row, layer([ofRow('change_delta', 'x1')], -0.35, 0.35), rowJoint);
+    expect(found?.above).not.toBeNull();
+    expect(found?.below).not.toBeNull();
+    const spacing = (value: number) => (1 + value) * 0.3;
+    expect(found?.above).toBeGreaterThan(spacing(at(0.0144)[0]) - 1e-9);
+    expect(found?.above).toBeLessThan(spacing(at(0.0144)[1]));
+    const both = looseningOf(row, layer([ofRow('change_delta', 'x1'), move('post', '0.01*x1')], -0.35, 0.35), rowJoint);
+    expect(both?.above).toBeGreaterThan(spacing(at(0.0433)[0]) - 1e-9);
+  });
+
+  it('is not spoken of where the number of instances has changed', () => {
+    const change = ofRow('change_count', '3*floor(100*abs(x1))');
+    expect(looseningOf(row, layer([change, move('slats', 'x1')], -0.35, 0.35), rowJoint)).toBeNull();
+  });
+});
 
 describe('a relation that an edit does not keep', () => {
   it('comes loose where it is off by more than the tolerance of one edited part', () => {

@@ -34,6 +34,9 @@ export interface CheckedProgram {
 /** Evaluated interval nodes that all amounts of a program may take together: about half a second. */
 const domainBudget = 2_000_000;
 
+/** No list of a program is longer; which is which is seen by the schema. */
+const longestList = Math.max(limits.statements, limits.reports);
+
 /**
  * Checks untrusted JSON against the format and a shape. Refused are: unknown formats, versions, keys, operators, parts
  * and relations; numbers that are not finite; lists, texts and nesting beyond `limits`; amounts that do not parse, name
@@ -74,11 +77,11 @@ function findExcess(json: unknown): ProgramError | null {
       return refusal(pointer(...path), `nested deeper than ${limits.jsonDepth} levels`, 'flatten it');
     }
     if (Array.isArray(value)) {
-      if (value.length > limits.statements) {
+      if (value.length > longestList) {
         return refusal(
           pointer(...path),
           `a list of ${value.length} items`,
-          `use at most ${limits.statements} statements or reports`,
+          `use at most ${limits.statements} statements and ${limits.reports} reports`,
         );
       }
       return firstFault(value.entries(), path);

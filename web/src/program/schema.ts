@@ -12,13 +12,16 @@ import {
   whyKinds,
 } from './types';
 
-/** What a program may have at most. Untrusted input is refused beyond it, before anything is done with it. */
+/**
+ * What a program may have at most: ProgramLimits of core/edit/program.h. Untrusted input is refused beyond it, before
+ * anything is done with it.
+ */
 export const limits = {
   layers: 100,
   /** In all layers together. */
   statements: 10_000,
-  /** Of a layer. */
-  reports: 10_000,
+  /** Of a layer: one for each relation that an edit may touch. */
+  reports: 100_000,
   /** That a statement names as its reason. */
   reasons: 256,
   /** Texts are measured in bytes of UTF-8. */

@@ -1,6 +1,7 @@
 // How far a slider can go before a relation that an edit does not keep comes apart.
 import { checkProgram } from '../program/check';
 import { compileProgram, type Evaluator } from '../program/compile';
+import { movedParts } from '../program/edited';
 import { isGroup, type Layer, type Shape, type ShapeRelation } from '../program/types';
 import { emptyProgram } from './document';
 import { type Measure, measureOf, pointIn, readAt } from './measure';
@@ -36,21 +37,29 @@ function search(shape: Shape, layer: Layer, relation: ShapeRelation): Loosening 
   if (isGroup(relation) || measure === null || !checked.ok) return null;
   const evaluator = compileProgram(checked.value, shape);
   const off = deviation(shape, relation);
-  const edited = new Set(
-    layer.statements.flatMap((statement) => ('amount' in statement && 'part' in statement ? [statement.part] : [])),
-  );
-  const slack = relation.parts.every((id) => edited.has(id)) ? slackBothEdited : slackOneEdited;
+  const moved = movedParts(shape, layer.statements);
+  const slack = relation.parts.every((id) => moved.has(id)) ? slackBothEdited : slackOneEdited;
+  const groups = groupsOfInstances(shape, relation);
   const { min, max } = layer.parameter;
   const reading = (value: number) => readAt(shape, measure, evaluator, [0], 0, [value])[0] ?? 0;
   const firstBeyond = (end: number): number | null => {
     for (let i = 1; i <= samples; i++) {
       evaluator.evaluate([(end * i) / samples]);
+      // Once the number of instances changes, they are copies at places of their own: there is nothing to come apart.
+      if (groups.some(([group, count]) => evaluator.groups[group]?.count !== count)) continue;
       if (off(evaluator) > slack) return reading((end * i) / samples);
     }
     return null;
   };
   const [below, above] = [firstBeyond(min), firstBeyond(max)];
   return below === null && above === null ? null : { below, above, rest: reading(0), measure };
+}
+
+/** Index and number of instances of the groups that a relation's parts are instances of. */
+function groupsOfInstances(shape: Shape, { parts }: ShapeRelation): readonly (readonly [number, number])[] {
+  return [...shape.relations.entries()].flatMap(([i, group]) =>
+    isGroup(group) && parts.some((id) => group.parts.includes(id)) ? [[i, group.parts.length] as const] : [],
+  );
 }
 
 /** Largest coordinate by which a relation is off, against what it is at rest. */

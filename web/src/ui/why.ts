@@ -1,5 +1,6 @@
 // "Why did this part move", "why did nothing happen": answers from the statements of the layers and, where propagation
 // ran on this page, from its trace.
+import { movedParts } from '../program/edited';
 import {
   isGroup,
   type Layer,
@@ -100,12 +101,14 @@ function stillWords(document: Document, shape: Shape, layer: Layer, id: string, 
   if (step && step.kind === 'left_alone') return sentence(`stays: ${inWords(document, step.why)}`);
   const relations = shape.relations.filter(({ parts }) => parts.includes(id));
   if (relations.length === 0) return 'Stays: nothing is joined to it, and nothing mirrors it.';
-  const moved = new Set(layer.statements.flatMap((s) => ('part' in s ? [s.part] : [])));
-  const tied = relations.filter(({ parts }) => parts.some((other) => other !== id && moved.has(other)));
-  if (tied.length === 0) return 'Stays: no part that it is tied to is changed.';
-  if (layer.relations.length === 0) return 'Stays: no statement is about it.';
-  const kept = new Set(layer.relations.filter(({ status }) => status === 'held').map((report) => report.id));
-  const lost = tied.filter((relation) => !kept.has(relation.id));
+  const moved = movedParts(shape, layer.statements);
+  const near = relations.filter(({ parts }) => parts.some((other) => other !== id && moved.has(other)));
+  if (near.length === 0) return 'Stays: no part that it is tied to is changed.';
+  const status = new Map(layer.relations.map((report) => [report.id, report.status]));
+  // What has no report is said by another relation: of two rows that mirror each other, not each pair as well.
+  const tied = near.filter((relation) => status.has(relation.id));
+  if (tied.length === 0) return 'Stays: no statement is about it.';
+  const lost = tied.filter((relation) => status.get(relation.id) !== 'held');
   if (lost.length > 0) {
     return sentence(
       `stays, and this is given up: ${listWords(lost.map((other) => relationWords(document, other, id)))}`,
