@@ -53,7 +53,7 @@ std::string fill(std::string_view text, const std::map<std::string_view, std::st
 }
 
 Status check(const EditWish& wish) {
-  if (printable(wish.request, 1).empty()) {
+  if (is_blank(wish.request)) {
     return Error{stage, "request", "it is empty", "say what to change, such as: widen the chair"};
   }
   const std::string fault = prose_fault(wish.request, ProgramLimits::request_bytes);

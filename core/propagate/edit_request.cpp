@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/tolerance.h"
+#include "core/edit/program_fields.h"
 #include "core/propagate/transfer.h"
 
 namespace parsel {
@@ -20,9 +21,7 @@ Error refused(std::string place, std::string cause, std::string fix) {
 }
 
 std::string pointer(const std::string& parent, const std::string& key) {
-  std::string escaped;
-  for (const char c : key.substr(0, 64)) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return parent + "/" + escaped;
+  return parent + "/" + pointer_token(key);
 }
 
 /// The statements are those of a program's layer: its reader checks them.
@@ -125,7 +124,7 @@ Status resolve_names(Statement& statement, const Shape& shape, const std::string
   const auto rename = [&](std::string& id, const char* field) -> Status {
     const auto part = shape.find_part(id);
     if (!part) {
-      return refused(pointer(place, field), "the shape has no part '" + id.substr(0, 64) + "'",
+      return refused(pointer(place, field), "the shape has no part " + shown(id),
                      "name a part that `parsel inspect` lists");
     }
     id = shape.parts[*part].id;
@@ -136,11 +135,11 @@ Status resolve_names(Statement& statement, const Shape& shape, const std::string
   } else {
     const auto relation = shape.find_relation(statement.relation);
     if (!relation) {
-      return refused(pointer(place, "relation"), "the shape has no relation '" + statement.relation.substr(0, 64) + "'",
+      return refused(pointer(place, "relation"), "the shape has no relation " + shown(statement.relation),
                      "name a relation that `parsel inspect` lists");
     }
     if (!shape.relations[*relation].is_group()) {
-      return refused(pointer(place, "relation"), "'" + statement.relation + "' is no translation or rotation",
+      return refused(pointer(place, "relation"), shown(statement.relation) + " is no translation or rotation",
                      "change count and spacing of groups only");
     }
   }
@@ -200,7 +199,7 @@ Status resolve_disabled(const EditRequest& request, const Shape& shape, Resolved
     }
     const auto relation = shape.find_relation(id);
     if (!relation) {
-      return refused(place, "the shape has no relation '" + id.substr(0, 64) + "'",
+      return refused(place, "the shape has no relation " + shown(id),
                      "name a relation that `parsel inspect` lists, or kind:<kind>");
     }
     resolved.disabled.insert(*relation);
