@@ -1,6 +1,8 @@
 #include "core/propagate/edit_request.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/base/tolerance.h"
@@ -15,6 +17,9 @@ namespace {
 
 constexpr const char* stage = "propagate/edit_request";
 constexpr std::size_t largest_count = 10000;
+/// An amount is 0 at x = 0 within this. Less would refuse what rounding leaves of sin(x + pi); with 1e-6 and more the
+/// checker sees the part move.
+constexpr double rest = 1e-9;
 
 Error refused(std::string place, std::string cause, std::string fix) {
   return {stage, std::move(place), std::move(cause), std::move(fix)};
@@ -180,6 +185,16 @@ Status check_fields(const Statement& statement, const std::string& place) {
   }
   if (names != std::vector<std::string>{edit_parameter}) {
     return refused(pointer(place, "amount"), "contains another parameter than x", "write it in x alone");
+  }
+  // Every slider starts at 0, where the shape is as it was.
+  const double at_zero = statement.amount.compile({edit_parameter})(std::array{0.0}.data());
+  if (!std::isfinite(at_zero)) {
+    return refused(pointer(place, "amount"), "is undefined at x = 0", "write an amount that is 0 there, such as x");
+  }
+  const bool moves = statement.op == Op::change_count ? std::floor(at_zero + rest) != 0 : std::abs(at_zero) > rest;
+  if (moves) {
+    return refused(pointer(place, "amount"), "is not 0 at x = 0, so that the part would move at once",
+                   "write an amount that is 0 there, such as x");
   }
   return success();
 }
