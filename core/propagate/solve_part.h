@@ -5,7 +5,7 @@
 // these searches that finds an edit ends it ("own" includes what the neighbours do, done to this part):
 //    1. own translations, within `exact`; then a part that is off by no more than delta_one_edited is left alone
 //    2. own rigid edits (translate, rotate, change of spacing) within `exact`, translations within half
-//    delta_one_edited
+//       delta_one_edited
 //    3. a group that does not fill its extent: a translation with a change of spacing, within `exact`
 //    4. own candidates without shear and bent edges, then neighbour candidates, then pairs of operators, within `exact`
 //    5. the first of these within delta_one_edited
