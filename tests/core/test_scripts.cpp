@@ -31,8 +31,9 @@ fixture::Document model_of(const std::vector<std::string>& names) {
 std::vector<std::string> node_names(const std::string& glb) {
   const auto size = static_cast<std::size_t>(static_cast<unsigned char>(glb[12])) |
                     static_cast<std::size_t>(static_cast<unsigned char>(glb[13])) << 8;
+  const json document = json::parse(glb.substr(20, size));
   std::vector<std::string> names;
-  for (const json& node : json::parse(glb.substr(20, size))["nodes"]) names.push_back(node["name"]);
+  for (const json& node : document["nodes"]) names.push_back(node["name"]);
   return names;
 }
 
