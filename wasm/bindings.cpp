@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/json.h"
 #include "wasm/methods.h"
 
 namespace {
@@ -49,7 +50,9 @@ parsel::Result<parsel::wasm::Output> run(const std::string& name, const std::str
     return parsel::Error{"wasm", name, "the core has no such method", "reload the page: it is older than the core"};
   }
   parsel::wasm::Input input;
-  input.parameters = json::parse(parameters, nullptr, false);
+  parsel::Result<json> read = parsel::json_from_text(parameters, "wasm");
+  if (!read.ok()) return read.error();
+  input.parameters = std::move(read).value();
   if (!input.parameters.is_object()) {
     return parsel::Error{"wasm", name, "the parameters are no JSON object", "please report this"};
   }

@@ -172,10 +172,12 @@ Result<Output> prompts(const Input& input) {
   }
   const Result<std::vector<Prompt>> made = make_prompts(model->shape, wish);
   if (!made.ok()) return made.error();
-  json list = json::array(), schemas = json::object();
+  json list = json::array(), tasks = json::object();
   for (const Prompt& prompt : *made) list.push_back(to_json(model->shape, prompt));
-  for (const Task task : all_tasks) schemas[std::string(to_string(task))] = reply_schema(task);
-  return Output{{{"prompts", std::move(list)}, {"schemas", std::move(schemas)}}, {}};
+  for (const Task* task : all_tasks()) {
+    tasks[std::string(task->name)] = {{"words", task->words}, {"schema", reply_schema(*task)}};
+  }
+  return Output{{{"prompts", std::move(list)}, {"tasks", std::move(tasks)}}, {}};
 }
 
 /// replies: for each prompt the texts that the language model gave.

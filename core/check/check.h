@@ -34,13 +34,11 @@ struct CheckReport {
 ///   * it is for this shape; parts, relations and references exist; operators have the fields they need;
 ///   * ranges contain 0 and the value; with all parameters 0 nothing moves (1e-6);
 ///   * over each layer's range (201 even values, ends included, and 40 random ones; other layers at their value):
-///   amounts
-///     are defined and below 5, no cage is inverted at a corner;
+///     amounts are defined and below 5, no cage is inverted at a corner;
 ///   * every judged relation (is_judged() in core/prove/scope.h) that touches an edited part and exists while the
 ///     layer's parameter is 0 is reported, once, and no other but disabled groups;
 ///   * held: never beyond the tolerance; broken: beyond it somewhere; worst: never exceeded (1e-6, for it is rounded
-///   when
-///     written), and no more than a tenth too large unless certified and within the tolerance.
+///     when written), and no more than a tenth too large unless certified and within the tolerance.
 /// Layers without any report are programs written by hand, whose authors claim nothing: only the first three are
 /// checked. Time is linear in statements and relations: 242 evaluations of the program a layer.
 CheckReport check_program(const Shape& shape, const Program& program);

@@ -9,14 +9,12 @@ namespace parsel::replay {
 
 /// Adds to `report.findings` what the trace says of layer `layer` and is not so, and counts the claims replayed:
 ///   * parameter and tolerances are those of the program and of the project; dissolved and disabled groups and
-///   relations
-///     are those that the layer's statements and reports imply;
+///     relations are those that the layer's statements and reports imply;
 ///   * every part that counts has at most one step that edits it, seeds first; every statement belongs to exactly one
 ///     step, that of its own part, and has the step's kind;
 ///   * every step edits a part that something pulls at; which of those came first is not judged;
 ///   * `pulled_by` and `result` are what the samples give before and after the step's statements, and name every
-///   relation
-///     to an edited part that is off; `left_broken` follows from `result`;
+///     relation to an edited part that is off; `left_broken` follows from `result`;
 ///   * no number of candidates or cost is negative, and what was solved had been screened;
 ///   * the reason for stopping is true: nothing is left to follow.
 /// Energies are not computed anew, and candidates are not generated anew.

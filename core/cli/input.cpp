@@ -1,5 +1,6 @@
 #include "core/cli/input.h"
 
+#include "core/base/json.h"
 #include "core/cli/command.h"
 #include "core/cli/model.h"
 #include "core/cli/program_file.h"
@@ -22,8 +23,8 @@ bool ends_with(const std::string& text, const std::string& end) {
 Result<nlohmann::json> read_json(const std::string& path) {
   const Result<std::string> text = read_file(path);
   if (!text) return text.error();
-  nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
-  if (json.is_discarded()) return Error{"cli", path, "the file is not JSON", "check that it is complete"};
+  Result<nlohmann::json> json = json_from_text(*text, "cli");
+  if (!json) return at_path(json.error(), path);
   return json;
 }
 

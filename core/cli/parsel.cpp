@@ -12,6 +12,11 @@
 
 namespace parsel::cli {
 
+namespace {
+/// As large as a model may be (ImportLimits::file_bytes): what is larger would be read for nothing.
+constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
+}  // namespace
+
 std::string Arguments::option(const std::string& name, const std::string& otherwise) const {
   const auto [first, last] = options.equal_range(name);
   return first == last ? otherwise : std::prev(last)->second;
@@ -43,6 +48,10 @@ Status may_write(const Arguments& arguments, const std::string& option) {
 Result<std::string> read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return Error{"cli", path, "the file cannot be opened", "check the path and its permissions"};
+  std::error_code unknown;  // of a pipe, which is then read to its end
+  if (const auto size = std::filesystem::file_size(path, unknown); !unknown && size > largest_file) {
+    return Error{"cli", path, "the file is larger than 1 GiB", "simplify the model, or give another file"};
+  }
   std::ostringstream bytes;
   bytes << file.rdbuf();
   if (!file.good() && !file.eof()) return Error{"cli", path, "reading failed", "check that it is a file, not a folder"};

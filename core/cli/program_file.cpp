@@ -2,7 +2,8 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
+
+#include "core/base/json.h"
 
 namespace parsel::cli {
 
@@ -15,10 +16,9 @@ Result<ProgramFile> load_program(const std::string& path) {
     if (!program.ok()) return program.error();
     return ProgramFile{std::move(*program), ProgramForm::text};
   }
-  const nlohmann::json json = nlohmann::json::parse(*bytes, nullptr, false);
-  if (json.is_discarded())
-    return Error{"cli", path, "it is not valid JSON", "check it for missing commas and brackets"};
-  Result<Program> program = program_from_json(json);
+  const Result<nlohmann::json> json = json_from_text(*bytes, "cli");
+  if (!json.ok()) return json.error();
+  Result<Program> program = program_from_json(*json);
   if (!program.ok()) return program.error();
   return ProgramFile{std::move(*program), ProgramForm::json};
 }

@@ -40,7 +40,7 @@ int run(const Arguments& arguments) {
 
   const Result<AskedTask> asked = asked_task(arguments, *shape);
   if (!asked.ok()) return refuse(asked.error());
-  const Result<Prompt> prompt = make_prompt(*shape, wish, asked->task, asked->relation);
+  const Result<Prompt> prompt = make_prompt(*shape, wish, *asked->task, asked->relation);
   if (!prompt.ok()) return refuse(prompt.error());
   if (!arguments.has("-o")) {
     std::cout << prompt->text;

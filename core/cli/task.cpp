@@ -6,20 +6,20 @@ namespace parsel::cli {
 
 Result<AskedTask> asked_task(const Arguments& arguments, const Shape& shape) {
   const std::string name = arguments.option("--task"), id = arguments.option("--relation");
-  const auto task = task_from_string(name);
-  if (!task) {
+  const Task* task = find_task(name);
+  if (task == nullptr) {
     std::string all;
-    for (const Task known : all_tasks) all += (all.empty() ? "" : ", ") + std::string(to_string(known));
+    for (const Task* known : all_tasks()) all += (all.empty() ? "" : ", ") + std::string(known->name);
     return Error{"cli", "--task", "there is no task '" + name + "'", "use one of " + all};
   }
-  if (!is_validity(*task)) {
-    if (id.empty()) return AskedTask{*task, {}};
+  if (!task->asks_about) {
+    if (id.empty()) return AskedTask{task, {}};
     return Error{"cli", "--relation", "the task " + name + " is not about one relation", "leave --relation out"};
   }
   std::string fitting;
   for (const RelationIndex r : active_relations(shape)) {
-    if (validity_task(shape.relations[r].kind) != *task) continue;
-    if (shape.relations[r].id == id) return AskedTask{*task, r};
+    if (!task->asks_about(shape.relations[r].kind)) continue;
+    if (shape.relations[r].id == id) return AskedTask{task, r};
     fitting += "\n  " + shape.relations[r].id + ": " + describe(shape, r);
   }
   const std::string cause =

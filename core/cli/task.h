@@ -9,8 +9,8 @@
 namespace parsel::cli {
 
 struct AskedTask {
-  Task task = Task::seed_edit;
-  std::optional<RelationIndex> relation;
+  const Task* task = nullptr;
+  AboutRelation relation;
 };
 
 /// Refuses unknown tasks and relations, and a validity task without a relation of its kind: the fix lists them.

@@ -13,8 +13,7 @@
 //   * on a member of a group moves that instance alone: not the group's points, not the parent. Refused by validate()
 //     once a change_count on the group stands before it. Member k is instance min(k, n - 1) after that;
 //   * on a virtual part moves the parent's corners; every instance of the group, its start and end (or centre) keep
-//   their
-//     local coordinates in the parent. For the whole-part feature that is the operator itself. For other features a
+//     their local coordinates in the parent. For the whole-part feature that is the operator itself. For other features a
 //     point moves by Σₖ Nₖ(u)·(H'ₖ - Hₖ), u its local coordinates in the parent before the statement (see
 //     local_coordinates()). A rotation group's axis then is along the parent's local axis parent_axis, with the sign
 //     that it has at rest (it stays when that axis is degenerate), and its radius the mean distance of the instances'
@@ -35,10 +34,10 @@
 // Rotation groups; anchors are ignored.
 //   * change_delta: instance k moves by a·r_k, r_k the vector from the axis to the instance's centre (the mean of its
 //     corners). The parent's corner with in-plane signs (s₁, s₂) moves by a·radius·(s₁·e₁ + s₂·e₂), e₁ and e₂ the unit
-//     directions of its two other local axes before the statement, zero when degenerate. Then radius becomes (1 +
-//     a)·radius.
+//     directions of its two other local axes before the statement, zero when degenerate. Then radius becomes
+//     (1 + a)·radius.
 //   * change_count: n' as above; when n' ≠ n, instance k is instance 0 turned by k·2π/n' about the axis. The parent
-//   stays.
+//     stays.
 #pragma once
 
 #include <memory>

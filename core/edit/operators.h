@@ -1,4 +1,4 @@
-// The edit operators and what they do to 8 corners. ParSEL §4.2, supplement table 2; design table in the README.
+// The edit operators and what they do to 8 corners. ParSEL §4.2, supplement table 2.
 //
 // Notation: H the corners before, H' after; o origin, n unit direction/axis/normal, d unit direction, a amount.
 //   translate   H' = H + a·n                          scale_3d  H' = H + a·(H − o)

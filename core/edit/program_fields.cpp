@@ -2,7 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
+
+#include "core/base/text.h"
 
 namespace parsel {
 
@@ -42,30 +43,15 @@ std::optional<Proof> proof(std::string_view text) {
   return find<Proof>(proof_names, text);
 }
 
-bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<std::uint8_t>(text[i++]);
-    if (lead < 0x80) continue;
-    const int more = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : 1;
-    if (lead < 0xc2 || lead > 0xf4) return false;
-    std::uint32_t point = lead & (0x3fU >> more);
-    for (int k = 0; k < more; ++k) {
-      if (i == text.size()) return false;
-      const auto next = static_cast<std::uint8_t>(text[i++]);
-      if ((next & 0xc0) != 0x80) return false;
-      point = point << 6 | (next & 0x3fU);
-    }
-    const std::array<std::uint32_t, 4> least = {0, 0x80, 0x800, 0x10000};
-    if (point < least[static_cast<std::size_t>(more)] || point > 0x10ffff) return false;
-    if (point >= 0xd800 && point <= 0xdfff) return false;
-  }
-  return true;
+std::string shown(std::string_view name) {
+  constexpr std::size_t longest = 40;
+  return "'" + printable(name, longest) + (name.size() > longest ? "…'" : "'");
 }
 
-std::string shown(std::string_view name) {
-  std::string text = "'";
-  for (const char c : name.substr(0, 40)) text += c >= 0x20 && c < 0x7f ? c : '?';
-  return text + (name.size() > 40 ? "…'" : "'");
+std::string pointer_token(std::string_view key) {
+  std::string token;
+  for (const char c : printable(key)) token += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return token;
 }
 
 std::string prose_fault(std::string_view text, std::size_t limit) {

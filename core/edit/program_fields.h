@@ -8,11 +8,10 @@
 
 namespace parsel {
 
-/// Well-formed UTF-8 without overlong forms, surrogates or code points beyond U+10FFFF.
-bool is_utf8(std::string_view text);
-
-/// A name from outside as messages show it: in quotes, cut, printable ASCII only.
+/// A name from outside as messages show it: printable, cut, in quotes.
 std::string shown(std::string_view name);
+/// A key from outside as one step of a JSON pointer: printable, cut, with `~` and `/` escaped.
+std::string pointer_token(std::string_view key);
 
 /// What is wrong with it as an id or a name, empty when nothing is: UTF-8, 1 … name_bytes bytes.
 std::string name_fault(std::string_view text);

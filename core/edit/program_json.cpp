@@ -20,21 +20,6 @@ struct Refusal {
   throw Refusal{std::move(place), std::move(cause), std::move(fix)};
 }
 
-/// `~` and `/` as a JSON pointer needs them; what is not plain ASCII is replaced.
-std::string pointer_token(std::string_view key) {
-  std::string text;
-  for (const char c : key.substr(0, 40)) {
-    if (c == '~') {
-      text += "~0";
-    } else if (c == '/') {
-      text += "~1";
-    } else {
-      text += c >= 0x20 && c < 0x7f ? c : '?';
-    }
-  }
-  return text;
-}
-
 const json& object(const json& value, const std::string& place, std::initializer_list<std::string_view> keys) {
   if (!value.is_object()) refuse(place, "it is not an object");
   for (const auto& [key, unused] : value.items()) {

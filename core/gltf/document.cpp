@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "core/base/json.h"
 #include "core/base/text.h"
 #include "core/base/uri.h"
 
@@ -67,33 +68,10 @@ Result<Container> split_container(std::string_view bytes) {
   return container;
 }
 
-/// Bounds nesting and number of values before a parser allocates for them; exact outside strings.
-Status check_json_size(std::string_view text, const ImportLimits& limits) {
-  std::size_t depth = 0, values = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-      continue;
-    }
-    if (c == '"') in_string = true;
-    if (c == '{' || c == '[') ++depth;
-    if ((c == '}' || c == ']') && depth > 0) --depth;
-    if (c == ',' || c == ':' || c == '{' || c == '[') ++values;
-    if (depth > limits.json_depth) {
-      return refused("JSON", "it is nested deeper than " + std::to_string(limits.json_depth) + " levels");
-    }
-  }
-  if (values > limits.json_values) {
-    return refused("JSON", "it has more than " + std::to_string(limits.json_values) + " values", "simplify the model");
-  }
-  return success();
-}
-
 Result<json> parse_json(std::string_view text, const ImportLimits& limits) {
-  if (const Status size = check_json_size(text, limits); !size.ok()) return size.error();
+  if (const auto fault = json_limits_fault(text, {limits.file_bytes, limits.json_values, limits.json_depth})) {
+    return refused("JSON", fault->cause, "simplify the model");
+  }
   try {
     json parsed = json::parse(text);
     if (!parsed.is_object()) return refused("JSON", "its root is not an object", "open a .glb or .gltf file");

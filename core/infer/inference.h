@@ -7,24 +7,26 @@
 #include <vector>
 
 #include "core/infer/edit_assembly.h"
+#include "core/infer/seed_edit.h"
 
 namespace parsel {
 
 /// The replies to one prompt: one text for each vote that arrived.
 struct Replies {
-  Task task = Task::seed_edit;
-  std::optional<RelationIndex> relation;  ///< set for the validity tasks, and of the kind that they ask about
+  const Task* task = nullptr;
+  AboutRelation relation;  ///< of the kind that the task asks about
   std::vector<std::string> texts;
 };
 
 /// A reply that could not be read; it does not count.
 struct RefusedReply {
-  Task task;
-  std::optional<RelationIndex> relation;
+  const Task* task;
+  AboutRelation relation;
   std::size_t vote;  ///< index into Replies::texts
   Error error;
 };
 
+/// What all replies mean: one member for what the replies to a task mean, counted.
 struct Inference {
   SeedVote seed;
   std::vector<HintVote> hints;

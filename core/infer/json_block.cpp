@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "core/base/json.h"
+
 namespace parsel {
 
 namespace {
@@ -35,11 +37,9 @@ std::size_t end_of_comment(std::string_view text, std::size_t at) {
   return close == text.npos ? text.size() : close + 2;
 }
 
-/// Strict JSON in place of what models write. Nothing when it is too long or nested too deeply.
-std::optional<std::string> cleaned(std::string_view text) {
-  if (text.size() > ReplyLimits::block_bytes) return std::nullopt;
+/// Strict JSON in place of what models write.
+std::string cleaned(std::string_view text) {
   std::string out;
-  int depth = 0;
   for (std::size_t i = 0; i < text.size();) {
     if (text[i] == '"') {
       const std::size_t end = end_of_string(text, i);
@@ -58,9 +58,7 @@ std::optional<std::string> cleaned(std::string_view text) {
       i = end;
       continue;
     }
-    if ((text[i] == '{' || text[i] == '[') && ++depth > ReplyLimits::nesting) return std::nullopt;
     if (text[i] == '}' || text[i] == ']') {
-      --depth;
       std::size_t last = out.size();
       while (last > 0 && is_blank(out[last - 1])) --last;
       if (last > 0 && out[last - 1] == ',') out.erase(last - 1);
@@ -71,11 +69,12 @@ std::optional<std::string> cleaned(std::string_view text) {
 }
 
 std::optional<json> parsed(std::string_view text) {
-  const auto strict = cleaned(text);
-  if (!strict) return std::nullopt;
-  json value = json::parse(*strict, nullptr, false);
-  if (value.is_discarded()) return std::nullopt;
-  return value;
+  if (text.size() > ReplyLimits::block_bytes) return std::nullopt;
+  JsonLimits limits;
+  limits.depth = ReplyLimits::nesting;
+  Result<json> value = json_from_text(cleaned(text), "infer/reply", limits);
+  if (!value.ok()) return std::nullopt;
+  return std::move(value).value();
 }
 
 struct Fenced {

@@ -1,6 +1,6 @@
 #include "core/infer/prompt.h"
 
-#include <map>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/base/sha256.h"
@@ -19,9 +19,16 @@ struct Template {
   std::string_view version, text;
 };
 
+const PromptText& text_of(const Task& task) {
+  const auto texts = prompt_texts();
+  const auto found = std::find_if(texts.begin(), texts.end(), [&](const PromptText& t) { return t.task == task.name; });
+  PARSEL_ASSERT(found != texts.end(), "every task has a template");
+  return *found;
+}
+
 /// The first line is "<!-- version N -->", then a blank one.
-Template read_template(Task task) {
-  const std::string_view file = prompt_texts[static_cast<std::size_t>(task)].markdown;
+Template read_template(const Task& task) {
+  const std::string_view file = text_of(task).markdown;
   constexpr std::string_view opening = "<!-- version ", closing = " -->\n\n";
   const std::size_t end = file.find(closing);
   PARSEL_ASSERT(file.starts_with(opening) && end != file.npos, "a template begins with its version");
@@ -37,7 +44,7 @@ std::string quoted_request(const std::string& request) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string fill(std::string_view text, const std::map<std::string_view, std::string>& places) {
+std::string fill(std::string_view text, const Places& places) {
   std::string out;
   while (true) {
     const std::size_t open = text.find("{{");
@@ -53,7 +60,7 @@ std::string fill(std::string_view text, const std::map<std::string_view, std::st
 }
 
 Status check(const EditWish& wish) {
-  if (printable(wish.request, 1).empty()) {
+  if (is_blank(wish.request)) {
     return Error{stage, "request", "it is empty", "say what to change, such as: widen the chair"};
   }
   const std::string fault = prose_fault(wish.request, ProgramLimits::request_bytes);
@@ -63,15 +70,15 @@ Status check(const EditWish& wish) {
 
 }  // namespace
 
-Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, Task task, std::optional<RelationIndex> relation) {
+Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task& task, AboutRelation relation) {
   if (const Status checked = check(wish); !checked.ok()) return checked.error();
-  if (relation && validity_task(shape.relations[*relation].kind) != task) {
+  if (relation && (!task.asks_about || !task.asks_about(shape.relations[*relation].kind))) {
     return Error{stage, shape.relations[*relation].id,
-                 "the task " + std::string(to_string(task)) + " does not ask about this relation",
+                 "the task " + std::string(task.name) + " does not ask about this relation",
                  "ask about a reflection or a group with the task for its kind"};
   }
-  if (!relation && is_validity(task)) {
-    return Error{stage, "relation", "the task " + std::string(to_string(task)) + " asks about one relation",
+  if (!relation && task.asks_about) {
+    return Error{stage, "relation", "the task " + std::string(task.name) + " asks about one relation",
                  "name a relation, such as r1 or t1"};
   }
   std::string mentioned;
@@ -81,45 +88,46 @@ Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, Task task, 
     mentioned += (mentioned.empty() ? "" : ", ") + shape.parts[*part].id;
   }
   const Template from = read_template(task);
-  Prompt prompt{task, relation, {}, {}, std::string(from.version)};
-  prompt.text =
-      fill(from.text,
-           {{"shape", describe(shape)},
-            {"request", quoted_request(wish.request)},
-            {"mentioned", mentioned.empty() ? "none" : mentioned},
-            {"relation", relation ? shape.relations[*relation].id + ": " + describe(shape, *relation) + "." : ""}});
+  Prompt prompt{&task, relation, {}, {}, std::string(from.version)};
+  Places places = {{"shape", describe(shape)},
+                   {"request", quoted_request(wish.request)},
+                   {"mentioned", mentioned.empty() ? "none" : mentioned}};
+  if (task.places) places.merge(task.places(shape, relation));
+  prompt.text = fill(from.text, places);
   prompt.hash = sha256_hex(prompt.text);
   return prompt;
 }
 
 Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wish) {
   std::vector<Prompt> prompts;
-  const auto add = [&](Task task, std::optional<RelationIndex> relation) -> Status {
-    Result<Prompt> prompt = make_prompt(shape, wish, task, relation);
+  const auto add = [&](const Task* task, AboutRelation relation) -> Status {
+    Result<Prompt> prompt = make_prompt(shape, wish, *task, relation);
     if (!prompt.ok()) return prompt.error();
     prompts.push_back(std::move(*prompt));
     return success();
   };
-  if (const Status s = add(Task::seed_edit, {}); !s.ok()) return s.error();
-  if (const Status s = add(Task::type_hints, {}); !s.ok()) return s.error();
+  for (const Task* task : all_tasks()) {
+    if (task->asks_about) continue;
+    if (const Status s = add(task, {}); !s.ok()) return s.error();
+  }
   for (const RelationIndex r : active_relations(shape)) {
-    const auto task = validity_task(shape.relations[r].kind);
-    if (!task) continue;
-    if (const Status s = add(*task, r); !s.ok()) return s.error();
+    const Task* task = task_about(shape.relations[r].kind);
+    if (task == nullptr) continue;
+    if (const Status s = add(task, r); !s.ok()) return s.error();
   }
   return prompts;
 }
 
 nlohmann::json to_json(const Shape& shape, const Prompt& prompt) {
-  return {{"task", to_string(prompt.task)},
+  return {{"task", prompt.task->name},
           {"relation", prompt.relation ? nlohmann::json(shape.relations[*prompt.relation].id) : nlohmann::json()},
           {"text", prompt.text},
           {"hash", prompt.hash},
           {"version", prompt.version}};
 }
 
-nlohmann::json reply_schema(Task task) {
-  return nlohmann::json::parse(prompt_texts[static_cast<std::size_t>(task)].schema);
+nlohmann::json reply_schema(const Task& task) {
+  return nlohmann::json::parse(text_of(task).schema);
 }
 
 }  // namespace parsel

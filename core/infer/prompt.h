@@ -22,24 +22,24 @@ struct EditWish {
 };
 
 struct Prompt {
-  Task task = Task::seed_edit;
-  std::optional<RelationIndex> relation;  ///< for the validity tasks
+  const Task* task = nullptr;
+  AboutRelation relation;
   std::string text;
   std::string hash;     ///< SHA-256 of the text, in hex
   std::string version;  ///< of the template
 };
 
-/// `relation` is needed by the validity tasks, of the kind that they ask about, and refused by the others.
-Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, Task task,
-                           std::optional<RelationIndex> relation = {});
+/// `relation` is needed by the tasks that ask about one, of the kind that they ask about, and refused by the others.
+Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task& task, AboutRelation relation = {});
 
-/// Every prompt of a request: the seed edit, the type hints, and one for each active symmetry (all groups standing).
+/// Every prompt of a request: those about the whole of it, then one for each active relation that a task asks about
+/// (all groups standing).
 Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wish);
 
 /// {"task", "relation": id or null, "text", "hash", "version"}
 nlohmann::json to_json(const Shape& shape, const Prompt& prompt);
 
 /// The JSON schema of the block that ends a reply.
-nlohmann::json reply_schema(Task task);
+nlohmann::json reply_schema(const Task& task);
 
 }  // namespace parsel

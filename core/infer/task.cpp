@@ -1,31 +1,31 @@
 #include "core/infer/task.h"
 
+#include <algorithm>
+#include <array>
+
+#include "core/infer/relation_validity.h"
+#include "core/infer/seed_edit.h"
+#include "core/infer/type_hints.h"
+
 namespace parsel {
 
-namespace {
-constexpr std::array<std::string_view, 4> task_names = {"seed_edit", "type_hints", "relation_validity_reflection",
-                                                        "relation_validity_group"};
-}  // namespace
-
-std::string_view to_string(Task task) {
-  return task_names[static_cast<std::size_t>(task)];
+std::span<const Task* const> all_tasks() {
+  static constexpr std::array all = {&seed_edit_task, &type_hints_task, &relation_validity_reflection_task,
+                                     &relation_validity_group_task};
+  return all;
 }
 
-std::optional<Task> task_from_string(std::string_view text) {
-  for (const Task task : all_tasks) {
-    if (to_string(task) == text) return task;
-  }
-  return std::nullopt;
+const Task* find_task(std::string_view name) {
+  const auto tasks = all_tasks();
+  const auto found = std::find_if(tasks.begin(), tasks.end(), [&](const Task* task) { return task->name == name; });
+  return found == tasks.end() ? nullptr : *found;
 }
 
-std::optional<Task> validity_task(RelationKind kind) {
-  if (kind == RelationKind::reflection) return Task::relation_validity_reflection;
-  if (kind == RelationKind::translation || kind == RelationKind::rotation) return Task::relation_validity_group;
-  return std::nullopt;
-}
-
-bool is_validity(Task task) {
-  return task == Task::relation_validity_reflection || task == Task::relation_validity_group;
+const Task* task_about(RelationKind kind) {
+  const auto tasks = all_tasks();
+  const auto found = std::find_if(tasks.begin(), tasks.end(),
+                                  [&](const Task* task) { return task->asks_about && task->asks_about(kind); });
+  return found == tasks.end() ? nullptr : *found;
 }
 
 }  // namespace parsel

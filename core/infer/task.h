@@ -1,25 +1,63 @@
-// What the language model is asked: ParSEL §6.2.1, supplement §5.2. Each task has a template (prompts/<task>.md) and a
-// schema of its reply (prompts/<task>.schema.json), both compiled in.
+// What the language model is asked: ParSEL §6.2.1, supplement §5.2. One record a task, in a source file of its own; its
+// template (prompts/<name>.md) and the schema of its reply (prompts/<name>.schema.json) are compiled in.
 #pragma once
 
-#include <array>
+#include <any>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/base/result.h"
 #include "core/shape/shape.h"
 
 namespace parsel {
 
-enum class Task { seed_edit, type_hints, relation_validity_reflection, relation_validity_group };
-inline constexpr std::array all_tasks = {Task::seed_edit, Task::type_hints, Task::relation_validity_reflection,
-                                         Task::relation_validity_group};
+struct Inference;
 
-std::string_view to_string(Task task);
-std::optional<Task> task_from_string(std::string_view text);
+/// What one reply means, in the task's own type.
+using Meaning = std::any;
+using Places = std::map<std::string_view, std::string>;
+/// The relation that a task is asked about; nothing for the tasks about the request as a whole.
+using AboutRelation = std::optional<RelationIndex>;
 
-/// The task that asks whether a relation of this kind shall be kept; nothing for attachments, which are never asked.
-std::optional<Task> validity_task(RelationKind kind);
-/// Whether the task is asked about one relation.
-bool is_validity(Task task);
+struct Task {
+  std::string_view name;
+  std::string_view words;  ///< what it asks about, for people: "the change"
+  /// Scope: whether it is asked about each relation of this kind; null when it is asked once, about the request.
+  bool (*asks_about)(RelationKind kind);
+  /// Render: what its template's places hold, besides {{shape}}, {{request}} and {{mentioned}}. Null for none.
+  Places (*places)(const Shape& shape, AboutRelation relation);
+  /// Any bytes → the meaning or why there is none.
+  Result<Meaning> (*read)(const Shape& shape, AboutRelation relation, std::string_view reply);
+  /// Counts what the replies to one prompt mean, each by read(), into its own member of the inference.
+  void (*vote)(const Shape& shape, AboutRelation relation, const std::vector<Meaning>& meanings, Inference& inference);
+  /// Writes that member as JSON; the tasks of one member write the same.
+  void (*write)(const Shape& shape, const Inference& inference, nlohmann::json& json);
+};
+
+/// Every task, in the order in which they are asked.
+std::span<const Task* const> all_tasks();
+
+/// Null when there is none.
+const Task* find_task(std::string_view name);
+/// The task that asks whether a relation of this kind shall be kept; null for attachments, which are never asked.
+const Task* task_about(RelationKind kind);
+
+/// The meanings in the type that the task's read() gives.
+template <class T>
+std::vector<T> meanings_as(const std::vector<Meaning>& meanings) {
+  std::vector<T> out;
+  for (const Meaning& meaning : meanings) out.push_back(std::any_cast<const T&>(meaning));
+  return out;
+}
+template <class T>
+Result<Meaning> as_meaning(Result<T> read) {
+  if (!read.ok()) return read.error();
+  return Meaning(std::move(*read));
+}
 
 }  // namespace parsel

@@ -1,9 +1,12 @@
 #include "core/propagate/edit_request.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/base/tolerance.h"
+#include "core/edit/program_fields.h"
 #include "core/propagate/transfer.h"
 
 namespace parsel {
@@ -14,15 +17,16 @@ namespace {
 
 constexpr const char* stage = "propagate/edit_request";
 constexpr std::size_t largest_count = 10000;
+/// An amount is 0 at x = 0 within this. Less would refuse what rounding leaves of sin(x + pi); with 1e-6 and more the
+/// checker sees the part move.
+constexpr double rest = 1e-9;
 
 Error refused(std::string place, std::string cause, std::string fix) {
   return {stage, std::move(place), std::move(cause), std::move(fix)};
 }
 
 std::string pointer(const std::string& parent, const std::string& key) {
-  std::string escaped;
-  for (const char c : key.substr(0, 64)) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return parent + "/" + escaped;
+  return parent + "/" + pointer_token(key);
 }
 
 /// The statements are those of a program's layer: its reader checks them.
@@ -125,7 +129,7 @@ Status resolve_names(Statement& statement, const Shape& shape, const std::string
   const auto rename = [&](std::string& id, const char* field) -> Status {
     const auto part = shape.find_part(id);
     if (!part) {
-      return refused(pointer(place, field), "the shape has no part '" + id.substr(0, 64) + "'",
+      return refused(pointer(place, field), "the shape has no part " + shown(id),
                      "name a part that `parsel inspect` lists");
     }
     id = shape.parts[*part].id;
@@ -136,11 +140,11 @@ Status resolve_names(Statement& statement, const Shape& shape, const std::string
   } else {
     const auto relation = shape.find_relation(statement.relation);
     if (!relation) {
-      return refused(pointer(place, "relation"), "the shape has no relation '" + statement.relation.substr(0, 64) + "'",
+      return refused(pointer(place, "relation"), "the shape has no relation " + shown(statement.relation),
                      "name a relation that `parsel inspect` lists");
     }
     if (!shape.relations[*relation].is_group()) {
-      return refused(pointer(place, "relation"), "'" + statement.relation + "' is no translation or rotation",
+      return refused(pointer(place, "relation"), shown(statement.relation) + " is no translation or rotation",
                      "change count and spacing of groups only");
     }
   }
@@ -182,6 +186,16 @@ Status check_fields(const Statement& statement, const std::string& place) {
   if (names != std::vector<std::string>{edit_parameter}) {
     return refused(pointer(place, "amount"), "contains another parameter than x", "write it in x alone");
   }
+  // Every slider starts at 0, where the shape is as it was.
+  const double at_zero = statement.amount.compile({edit_parameter})(std::array{0.0}.data());
+  if (!std::isfinite(at_zero)) {
+    return refused(pointer(place, "amount"), "is undefined at x = 0", "write an amount that is 0 there, such as x");
+  }
+  const bool moves = statement.op == Op::change_count ? std::floor(at_zero + rest) != 0 : std::abs(at_zero) > rest;
+  if (moves) {
+    return refused(pointer(place, "amount"), "is not 0 at x = 0, so that the part would move at once",
+                   "write an amount that is 0 there, such as x");
+  }
   return success();
 }
 
@@ -200,7 +214,7 @@ Status resolve_disabled(const EditRequest& request, const Shape& shape, Resolved
     }
     const auto relation = shape.find_relation(id);
     if (!relation) {
-      return refused(place, "the shape has no relation '" + id.substr(0, 64) + "'",
+      return refused(place, "the shape has no relation " + shown(id),
                      "name a relation that `parsel inspect` lists, or kind:<kind>");
     }
     resolved.disabled.insert(*relation);

@@ -5,11 +5,11 @@
 //    "dissolved":[group relation ids],"disabled":[relation ids],
 //    "steps":[{"part":id,
 //      "kind":"seed|symmetry|attachment|neighbour|breaking|group|keep_fixed|left_alone",
-//      "statements":[indices into the layer's statements],   // none for left_alone and a keep_fixed by hint that
-//      nothing pulls at "pulled_by":[{"relation":id,"by":number}],            // relations to edited parts and how far
-//      each is off (largest
-//                                                            // |coordinate| at the samples) while the part stays at
-//                                                            rest
+//      "statements":[indices into the layer's statements],   // none for left_alone, and for a keep_fixed by hint
+//                                                            // that nothing pulls at
+//      "pulled_by":[{"relation":id,"by":number}],            // relations to edited parts, and how far each is off
+//                                                            // (largest |coordinate| at the samples) while the part
+//                                                            // stays at rest
 //      "result":[{"relation":id,"by":number}],               // the same relations with the statements applied
 //      "left_broken":[relation ids],                         // given up; not chased again
 //      "hint":"…",                                           // when there is one

@@ -28,8 +28,7 @@ namespace parsel {
 ///   status  held when `worst` is within the tolerance of the relation (slack.h), else broken; disabled as `disabled` says.
 ///   worst   largest deviation of a coordinate over the range (see deviation.h), for disabled relations too.
 ///   proof   certified: `worst` is a proven upper bound, which either keeps the tolerance or exceeds a value that
-///   really
-///           occurs by at most 1 % and 1e-6. sampled: no such bound was found (see Enclosure for when); `worst` is
+///           really occurs by at most 1 % and 1e-6. sampled: no such bound was found (see Enclosure for when); `worst` is
 ///           the largest of 257 evenly spaced samples, ends included, and of both sides of every jump.
 ///
 /// `program` passed validate() for `shape`; the parameter's range contains 0. Deterministic.

@@ -21,6 +21,9 @@ bool is_digit(char c) {
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
+bool is_ascii(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
@@ -159,7 +162,7 @@ std::string clean_label(std::string_view name) {
   }
   std::size_t start = 0;
   while (start < label.size() && is_separator(label[start])) ++start;
-  label.erase(0, start);
+  label = printable(label.substr(start));  // a mark may have stood on the separators
   return label.empty() ? "part" : label;
 }
 
@@ -184,10 +187,16 @@ std::string grouping_key(std::string_view label) {
 
 std::string slug(std::string_view label) {
   std::string out;
-  for (const char c : label) {
+  for (std::size_t at = 0; at < label.size();) {
+    const Character character = character_at(label, at);
+    const char c = label[at];
+    at += character.size;
+    const std::string_view latin = plain_latin(character.code);
     if (is_letter(c) || is_digit(c)) {
       out += lower(c);
-    } else if (!out.empty() && out.back() != '_') {
+    } else if (!latin.empty()) {
+      out += latin;
+    } else if (!joins_previous(character.code) && !out.empty() && out.back() != '_') {
       out += '_';
     }
   }
@@ -197,11 +206,16 @@ std::string slug(std::string_view label) {
 
 std::vector<PartName> name_parts(const std::vector<std::string>& labels, const std::vector<Vec3>& centres) {
   PARSEL_ASSERT(labels.size() == centres.size(), "every part has a label and a centre");
-  std::map<std::string, std::vector<std::size_t>> sharing;
-  for (std::size_t i = 0; i < labels.size(); ++i) sharing[slug(labels[i])].push_back(i);
+  // Labels in other letters than Latin ones may have one slug, "part", and mean different things.
+  std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> sharing;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const std::string foreign = is_ascii(labels[i]) ? "" : readable(labels[i]);
+    sharing[{slug(labels[i]), foreign}].push_back(i);
+  }
 
   std::vector<PartName> names(labels.size());
-  for (const auto& [stem, parts] : sharing) {
+  for (const auto& [label, parts] : sharing) {
+    const std::string& stem = label.first;
     if (parts.size() == 1) {
       names[parts[0]] = {stem, readable(labels[parts[0]])};
       continue;

@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/base/text.h"
 #include "core/base/tolerance.h"
 #include "core/shape/shape.h"
 
@@ -46,6 +47,15 @@ std::string text(const json& object, const char* name, const std::string& place)
   const json& value = member(object, name, place);
   if (!value.is_string()) throw Malformed{place, std::string("'") + name + "' is not a string"};
   return value.get<std::string>();
+}
+/// A name as abstract_shape() gives it: prompts and messages show it as it is.
+std::string name(const json& object, const char* member, const std::string& place) {
+  constexpr std::size_t longest = 200;
+  std::string value = text(object, member, place);
+  if (printable(value, longest) != value) {
+    throw Malformed{place, std::string("'") + member + "' is not printable, or longer than 200 bytes"};
+  }
+  return value;
 }
 double number(const json& value, const std::string& place) {
   if (!value.is_number() || !std::isfinite(value.get<double>())) throw Malformed{place, "a number was expected"};
@@ -119,7 +129,7 @@ class Reader {
   Shape read(const json& file) {
     if (text(file, "format", "/") != "parsel/shape") throw Malformed{"/format", "it is not parsel/shape"};
     if (integer(file, "version", "/") != 1) throw Malformed{"/version", "only version 1 is known"};
-    shape_.name = text(file, "name", "/");
+    shape_.name = name(file, "name", "/");
     shape_.sha256 = text(file, "sha256", "/");
     shape_.frame.centre = vector(member(member(file, "frame", "/"), "centre", "/frame"), "/frame/centre");
     shape_.frame.scale = number(member(file["frame"], "scale", "/frame"), "/frame/scale");
@@ -136,9 +146,9 @@ class Reader {
  private:
   void read_part(const json& entry, const std::string& place) {
     Part part;
-    part.id = text(entry, "id", place);
-    part.label = text(entry, "label", place);
-    part.name = text(entry, "name", place);
+    part.id = name(entry, "id", place);
+    part.label = name(entry, "label", place);
+    part.name = name(entry, "name", place);
     part.node = integer(entry, "node", place);
     part.primitive = integer(entry, "primitive", place);
     const std::vector<Vec3> corners = points(entry, "corners", place), axes = points(entry, "axes", place);
@@ -167,7 +177,7 @@ class Reader {
 
   void read_relation(const json& entry, const std::string& place) {
     Relation relation;
-    relation.id = text(entry, "id", place);
+    relation.id = name(entry, "id", place);
     const std::optional<RelationKind> kind = relation_kind(text(entry, "kind", place));
     if (!kind) throw Malformed{place, "its kind is unknown"};
     relation.kind = *kind;

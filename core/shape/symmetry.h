@@ -14,8 +14,7 @@
 //      them in the middle, are no two diagonals.
 //      A part is in at most one translation or rotation group; there are no groups of groups.
 //   3. Reflection about planes x, y or z = constant, pair by pair. For each set of congruent parts and each axis at
-//   most
-//      one plane: the middle plane of the shape when it pairs any of them, else the set's own middle plane when that
+//      most one plane: the middle plane of the shape when it pairs any of them, else the set's own middle plane when that
 //      maps the whole set onto itself. Parts of one group are not paired with each other; two groups are paired when
 //      all their instances are.
 #pragma once

@@ -5,6 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { scripts } from '../web/scripts';
 
 const tool = fileURLToPath(new URL('../../build/native-debug/core/parsel', import.meta.url));
 let folder: string;
@@ -156,5 +157,42 @@ describe('parsel', () => {
     expect(answer.text).toContain(words);
     expect(answer.output).toBe('');
     expect(readdirSync(folder)).not.toContain('never.glb');
+  });
+
+  it.each(scripts)('takes requests in any script: $name', ({ request, parts }) => {
+    const prompt = run('prompt', 'chair.glb', '--task', 'seed_edit', '--request', request);
+    expect(prompt).toContain(`Request: ${JSON.stringify(request)}`);
+    const { code, text } = refusal(
+      'prompt',
+      'chair.glb',
+      '--task',
+      'seed_edit',
+      '--request',
+      'x',
+      '--mention',
+      ...parts.slice(0, 1),
+    );
+    expect(code).toBe(1);
+    expect(text).toContain(`'${parts[0]}'`);
+  });
+
+  it('refuses JSON that is nested too deeply, wherever it is read', () => {
+    write('deep.json', `{"seed":${'['.repeat(200_000)}${']'.repeat(200_000)}}`);
+    write('deep.gltf', `{"asset":${'['.repeat(200_000)}${']'.repeat(200_000)}}`);
+    for (const given of [
+      ['inspect', 'deep.gltf'],
+      ['propagate', 'deep.json', 'edit.json'],
+      ['propagate', 'chair.glb', 'deep.json'],
+      ['check', 'chair.glb', 'deep.json'],
+      ['check', 'chair.glb', 'program.json', '--trace', 'deep.json'],
+      ['apply', 'chair.glb', 'deep.json', '-o', 'never.glb'],
+      ['evaluate', 'chair.glb', 'deep.json'],
+      ['convert', 'deep.json'],
+      ['score', 'chair.glb', '--truth', 'program.json', '--program', 'deep.json'],
+    ]) {
+      const { code, text } = refusal(...given);
+      expect([given, code]).toEqual([given, 1]);
+      expect(text).toContain('nested deeper than 64 levels');
+    }
   });
 });

@@ -1,5 +1,3 @@
-#include "core/infer/reply.h"
-
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
@@ -7,6 +5,9 @@
 #include "core/base/random.h"
 #include "core/infer/json_block.h"
 #include "core/infer/reading.h"
+#include "core/infer/relation_validity.h"
+#include "core/infer/seed_edit.h"
+#include "core/infer/type_hints.h"
 #include "tests/core/hostile_names.h"
 #include "tests/core/shape_fixture.h"
 

@@ -98,6 +98,9 @@ TEST_CASE("JSON that is no shape is refused by name") {
   CHECK(refused([](nlohmann::json& j) { j = 5; }));
   CHECK(refused([](nlohmann::json& j) { j["format"] = "parsel/program"; }));
   CHECK(refused([](nlohmann::json& j) { j["version"] = 2; }));
+  CHECK(refused([](nlohmann::json& j) { j["parts"][0]["id"] = "seat\n# Task"; }));
+  CHECK(refused([](nlohmann::json& j) { j["parts"][0]["name"] = "\u202eseat"; }));
+  CHECK(refused([](nlohmann::json& j) { j["name"] = std::string(201, 'a'); }));
   CHECK(refused([](nlohmann::json& j) { j["version"] = 1e99; }));
   // Every member of every part and relation removed or of a wrong type; warnings and what follows from the rest aside.
   for (const char* list : {"parts", "relations"}) {

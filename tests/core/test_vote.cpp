@@ -1,10 +1,9 @@
-#include "core/infer/vote.h"
+#include "core/infer/inference.h"
 
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "core/infer/inference.h"
 #include "core/infer/reading.h"
 #include "core/propagate/propagate.h"
 #include "tests/core/shape_fixture.h"

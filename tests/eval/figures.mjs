@@ -1,5 +1,5 @@
-// The figures of the README, each from where it was measured: writes OUTPUT/index.html, which leads to the reports, and
-// with --readme puts the tables between their marks in README.md.
+// The project's figures, each from where it was measured: writes OUTPUT/index.html, which leads to the reports, and with
+// --readme puts the tables between their marks in README.md, tests/bench/README.md and tests/eval/README.md.
 //   node tests/eval/figures.mjs OUTPUT [--readme]
 // OUTPUT: the folder that tests/eval/run.sh fills (debian/, furniture/, requests.json). Speed and sizes are the last
 // record of tests/bench/results.csv (tests/bench/run.sh --record).
@@ -148,6 +148,23 @@ const numbers = [
   ],
 ];
 
+/** The rows that the README shows as well, by how they begin. */
+const most = [
+  'propagation, WebAssembly',
+  '… a wall',
+  'the paper’s procedure',
+  'abstraction',
+  'gallery edits',
+  'relations held',
+  `… ${debian.models} models`,
+  'a slider step',
+  'cold start',
+  'WebAssembly download',
+];
+const summary = numbers
+  .filter(([what], row) => row === 0 || most.some((start) => what.startsWith(start)))
+  .map(([what, aim, measured]) => [what, aim, measured]);
+
 const searches = [
   'full',
   'without neighbour edits',
@@ -193,14 +210,19 @@ const programs = measures(requests.programs, ['J(prog)', 'D(geo)', '%Rel', 'mesh
 
 const tables = { numbers, ablation, replies, programs };
 
-if (option === '--readme') {
-  const file = join(root, 'README.md');
+const pages = {
+  'README.md': { summary },
+  'tests/bench/README.md': { numbers, ablation },
+  'tests/eval/README.md': { replies, programs },
+};
+for (const [page, own] of Object.entries(option === '--readme' ? pages : {})) {
+  const file = join(root, page);
   let text = readFileSync(file, 'utf8');
-  for (const [name, [head, ...rows]] of Object.entries(tables)) {
+  for (const [name, [head, ...rows]] of Object.entries(own)) {
     const [open, close] = [`<!-- figures: ${name} -->\n`, '<!-- end -->'];
     const start = text.indexOf(open);
     const end = text.indexOf(close, start);
-    if (start < 0 || end < 0) throw new Error(`README.md has no marks for the table ${name}.`);
+    if (start < 0 || end < 0) throw new Error(`${page} has no marks for the table ${name}.`);
     const line = (cells) => `| ${cells.join(' | ')} |\n`;
     const markdown = `${line(head)}|${'---|'.repeat(head.length)}\n${rows.map(line).join('')}`;
     text = text.slice(0, start) + open + markdown + text.slice(end);

@@ -19,7 +19,12 @@ const prompt = (task: Prompt['task'], relation: string | null = null): Prompt =>
 });
 const set: PromptSet = {
   prompts: [prompt('seed_edit'), prompt('type_hints'), prompt('relation_validity_reflection', 'r1')],
-  schemas: { seed_edit: {}, type_hints: {}, relation_validity_reflection: {}, relation_validity_group: {} },
+  tasks: Object.fromEntries(
+    ['seed_edit', 'type_hints', 'relation_validity_reflection'].map((name) => [
+      name,
+      { words: `${name}?`, schema: {} },
+    ]),
+  ),
 };
 
 /** Counts equal texts; `bad` cannot be read, `unclear` is no reading. */
@@ -95,8 +100,9 @@ describe('asking', () => {
   it('tells how far each task is', async () => {
     const onProgress = vi.fn();
     await run(fakeSource(2, () => undefined).source, { onProgress });
-    expect(onProgress.mock.calls[0]?.[0]).toEqual(set.prompts.map(({ task }) => ({ task, done: 0, of: 2 })));
-    expect(onProgress.mock.calls.at(-1)?.[0]).toEqual(set.prompts.map(({ task }) => ({ task, done: 2, of: 2 })));
+    const all = (done: number) => set.prompts.map(({ task }) => ({ task, words: `${task}?`, done, of: 2 }));
+    expect(onProgress.mock.calls[0]?.[0]).toEqual(all(0));
+    expect(onProgress.mock.calls.at(-1)?.[0]).toEqual(all(2));
     expect(onProgress.mock.calls).toHaveLength(7);
   });
 

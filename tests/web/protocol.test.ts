@@ -58,8 +58,8 @@ describe('the boundary between the page and the core', () => {
     const { buffers } = invoke('gallery', {});
     invoke('open', { name: 'chair', external: [] }, [buffers[0] as Uint8Array]);
     const asked = invoke('prompts', { request: 'let the seat be shallower', mentioned: ['seat'] });
-    const { prompts, schemas } = v.parse(methodSchemas.prompts.result, (asked.message as { result: unknown }).result);
-    expect(Object.keys(schemas).sort()).toEqual([...new Set(prompts.map(({ task }) => task))].sort());
+    const { prompts, tasks } = v.parse(methodSchemas.prompts.result, (asked.message as { result: unknown }).result);
+    expect(Object.keys(tasks).sort()).toEqual([...new Set(prompts.map(({ task }) => task))].sort());
     const fenced = (block: unknown) => `Well.\n\`\`\`json\n${JSON.stringify(block)}\n\`\`\``;
     const seed = { op: 'scale_1d', part: 'seat', direction: [0, 0, 1], amount: '-x' };
     const replies = prompts.map(({ task, relation }) => ({

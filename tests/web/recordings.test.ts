@@ -82,7 +82,7 @@ describe('the comparison', () => {
     model: 'chair',
     request: name,
     prompts: hashes.map(prompt),
-    schemas: {} as RenderedRequest['schemas'],
+    tasks: {},
   });
   const recording = (hash: string, votes = 1): [string, Recording] => [
     hash,

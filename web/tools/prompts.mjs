@@ -39,7 +39,7 @@ export function writeReplies({ hash, task }, model, replies, date = new Date().t
 /**
  * Renders the prompts of requests.
  * @param core from loadCore()
- * @returns [{model, request, mentioned, suggest, prompts: [{task, relation, text, hash}], schemas}]
+ * @returns [{model, request, mentioned, suggest, prompts: [{task, relation, text, hash}], tasks}]
  */
 export function renderRequests(core, requests) {
   const { result, buffers } = core('gallery', {});

@@ -44,12 +44,12 @@ const wanted = all.filter(({ model }) => values.only === undefined || model === 
 /** Prompts with fewer replies than votes; each hash once. */
 function gaps() {
   const found = new Map();
-  for (const { model, request, prompts, schemas } of wanted) {
+  for (const { model, request, prompts, tasks } of wanted) {
     for (const prompt of prompts) {
       const have = new Set((recordings.get(prompt.hash)?.replies ?? []).map(({ vote }) => vote));
       const free = Array.from({ length: votes }, (_, vote) => vote).filter((vote) => !have.has(vote));
       if (free.length > 0)
-        found.set(prompt.hash, { model, request, prompt, schema: schemas[prompt.task], votes: free });
+        found.set(prompt.hash, { model, request, prompt, schema: tasks[prompt.task].schema, votes: free });
     }
   }
   return [...found.values()];

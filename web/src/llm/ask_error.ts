@@ -1,4 +1,5 @@
 // Why a language model gave no answer: what happened, on whose side, and what to do about it.
+import { shortened } from '../program/cut';
 import type { CoreErrorValue } from '../worker/protocol';
 
 export type AskFailure =
@@ -58,7 +59,7 @@ const maxQuoted = 200;
 export function quoted(text: string): string {
   // biome-ignore lint/suspicious/noControlCharactersInRegex: they are what is taken out
   const plain = text.replace(/[\u0000-\u001f\u007f-\u009f\u202a-\u202e\u2066-\u2069]+/g, ' ').trim();
-  return plain === '' ? '' : ` (“${plain.length > maxQuoted ? `${plain.slice(0, maxQuoted)}…` : plain}”)`;
+  return plain === '' ? '' : ` (“${shortened(plain, maxQuoted)}”)`;
 }
 
 /** @param said what the body of the refusal says, with its codes */

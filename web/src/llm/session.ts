@@ -10,6 +10,8 @@ export type PromptSet = MethodResult<'prompts'>;
 
 export interface TaskProgress {
   readonly task: Task;
+  /** What it asks about. */
+  readonly words: string;
   /** Calls that have ended or are no longer needed. */
   readonly done: number;
   readonly of: number;
@@ -49,7 +51,7 @@ const given = ({ texts }: Ballot): { vote: number; text: string }[] =>
  * @throws AskError when the seed edit got no reply at all or every call would fail alike; or the signal's reason
  */
 export async function ask(
-  { prompts, schemas }: PromptSet,
+  { prompts, tasks: known }: PromptSet,
   source: Source,
   read: (replies: Replies[]) => Promise<Inference>,
   { signal, onProgress }: AskOptions,
@@ -70,7 +72,7 @@ export async function ask(
       const sum = tasks.get(prompt.task) ?? { done: 0, of: 0 };
       tasks.set(prompt.task, { done: sum.done + of - pending, of: sum.of + of });
     }
-    onProgress([...tasks].map(([task, sum]) => ({ task, ...sum })));
+    onProgress([...tasks].map(([task, sum]) => ({ task, words: known[task]?.words ?? task, ...sum })));
   };
   const readAll = () =>
     read(ballots.map((ballot) => ({ ...asked(ballot.prompt), texts: given(ballot).map(({ text }) => text) })));
@@ -102,7 +104,7 @@ export async function ask(
     const own = AbortSignal.any([signal, all.signal, controller.signal]);
     try {
       own.throwIfAborted();
-      const reply = await source.reply(prompt, vote, schemas[prompt.task] ?? null, own);
+      const reply = await source.reply(prompt, vote, known[prompt.task]?.schema ?? null, own);
       ballot.texts[vote] = reply.text;
       calls++;
       tokens.input += reply.tokens?.input ?? 0;

@@ -3,6 +3,7 @@
 //
 // The input is never changed; what comes out is a copy, and there is none unless everything has been accepted.
 import * as v from 'valibot';
+import { cut, shortened } from './cut';
 import { type DomainBudget, findDomainFault, maxMagnitude, parametersOf, type Range } from './domain';
 import { type Expression, parseAmount } from './parse';
 import { partIndex } from './part_index';
@@ -57,12 +58,12 @@ function refusal(place: string, cause: string, fix: string): ProgramError {
 
 /** RFC 6901. */
 function pointer(...path: readonly (string | number)[]): string {
-  return path.map((key) => `/${String(key).replaceAll('~', '~0').replaceAll('/', '~1').slice(0, 80)}`).join('');
+  return path.map((key) => `/${cut(String(key), 80).replaceAll('~', '~0').replaceAll('/', '~1')}`).join('');
 }
 
 /** Quotes a name from the input for a message, at a length that fits one. */
 function quote(text: string): string {
-  return JSON.stringify(text.length > 60 ? `${text.slice(0, 60)}…` : text);
+  return JSON.stringify(shortened(text, 60));
 }
 
 /** What no schema should be asked to walk: too many values, too deep, not JSON, or keys that reach into prototypes. */
@@ -130,7 +131,7 @@ function fromIssue(issue: v.BaseIssue<unknown>): ProgramError {
 }
 
 function clip(text: string, length = 80): string {
-  return text.length > length ? `${text.slice(0, length)}…` : text;
+  return shortened(text, length);
 }
 
 /** Stops at the first fault; never leaves this file. */

@@ -2,6 +2,8 @@
 import { batch, computed, effect, type ReadonlySignal, signal } from '@preact/signals';
 import { checkProgram } from '../program/check';
 import { compileProgram, type Evaluator } from '../program/compile';
+import { cutBytes } from '../program/cut';
+import { limits } from '../program/schema';
 import { errorMessage, type Layer, type LocalTriple, type Program, type Shape } from '../program/types';
 import {
   type Document,
@@ -268,7 +270,8 @@ export function setHidden(ids: readonly string[], hidden: boolean): void {
 export function showAll(): void {
   if (document.peek().hidden.size > 0) change('show all', { hidden: new Set() });
 }
-export function renamePart(id: string, name: string): void {
+export function renamePart(id: string, typed: string): void {
+  const name = cutBytes(typed, limits.nameLength); // a longer one could be saved, but not opened again
   if (nameOf(document.peek(), id) === name) return;
   const names = new Map(document.peek().names);
   if (name === '') names.delete(id);

@@ -1,5 +1,6 @@
 // `parsel/session` v1: the work on a model without the model, for files and links. Untrusted when it is read.
 import * as v from 'valibot';
+import { shortened } from '../program/cut';
 import { limits, programSchema } from '../program/schema';
 import type { CameraPose } from '../scene/camera';
 import type { Document } from '../session/document';
@@ -81,7 +82,7 @@ export function readSaved(json: unknown): ReadResult {
   const parsed = v.safeParse(savedSchema, json, { abortEarly: true });
   if (parsed.success) return { ok: true, saved: parsed.output };
   const place = v.getDotPath(parsed.issues[0]) ?? 'the file';
-  return { ok: false, text: `This session is damaged at ${place.slice(0, 80)}. Ask for it again.` };
+  return { ok: false, text: `This session is damaged at ${shortened(place, 80)}. Ask for it again.` };
 }
 
 export function readSavedText(text: string): ReadResult {

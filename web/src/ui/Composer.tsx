@@ -163,13 +163,6 @@ function Mentions() {
   );
 }
 
-const taskWords: Record<TaskProgress['task'], string> = {
-  seed_edit: 'the change',
-  type_hints: 'what other parts do',
-  relation_validity_reflection: 'mirror symmetries',
-  relation_validity_group: 'rows and rings',
-};
-
 function Asking({ tasks }: { tasks: readonly TaskProgress[] }) {
   const done = tasks.reduce((sum, task) => sum + task.done, 0);
   const of = tasks.reduce((sum, task) => sum + task.of, 0);
@@ -181,7 +174,7 @@ function Asking({ tasks }: { tasks: readonly TaskProgress[] }) {
         <p class="quiet">
           {tasks
             .filter((task) => task.of > 0)
-            .map((task) => `${taskWords[task.task]} ${task.done} of ${task.of}`)
+            .map((task) => `${task.words} ${task.done} of ${task.of}`)
             .join(' · ')}
         </p>
       </div>

@@ -6,13 +6,8 @@ import * as v from 'valibot';
 export const errorSchema = v.strictObject({ stage: v.string(), place: v.string(), cause: v.string(), fix: v.string() });
 export type CoreErrorValue = v.InferOutput<typeof errorSchema>;
 
-/** What the language model is asked; each has a template and a reply schema in prompts/. */
-export const taskSchema = v.picklist([
-  'seed_edit',
-  'type_hints',
-  'relation_validity_reflection',
-  'relation_validity_group',
-]);
+/** What the language model is asked, by its name in prompts/. Which there are, the core says with the prompts. */
+const taskSchema = v.string();
 export type Task = v.InferOutput<typeof taskSchema>;
 
 /** One prompt of a request. `relation`: the relation that a validity task asks about. */
@@ -34,8 +29,11 @@ const repliesSchema = v.strictObject({
 });
 export type Replies = v.InferOutput<typeof repliesSchema>;
 
-/** What the replies of a request mean, counted. Every `of` is the number of replies that could be read. */
-const inferenceSchema = v.strictObject({
+/**
+ * What the replies of a request mean, counted. Every `of` is the number of replies that could be read. Tasks beyond
+ * those of the paper may add members.
+ */
+const inferenceSchema = v.looseObject({
   seed: v.strictObject({
     /** decided: more than half agree; unclear: most say that the request is; none: no reply could be read. */
     outcome: v.picklist(['decided', 'split', 'unclear', 'none']),
@@ -109,12 +107,16 @@ export const methodSchemas = {
       models: v.array(v.looseObject({ id: v.string(), title: v.string(), file: v.string() })),
     }),
   },
-  /** Every prompt of a request, and for each task the JSON schema of its reply. `mentioned`: parts pointed at. */
+  /** Every prompt of a request, and of each task what it asks about and the JSON schema of its reply. `mentioned`: parts
+   * pointed at. */
   prompts: {
     parameters: v.strictObject({ request: v.string(), mentioned: v.array(v.string()) }),
     result: v.strictObject({
       prompts: v.array(promptSchema),
-      schemas: v.record(taskSchema, v.looseObject({ type: v.optional(v.string()) })),
+      tasks: v.record(
+        taskSchema,
+        v.strictObject({ words: v.string(), schema: v.looseObject({ type: v.optional(v.string()) }) }),
+      ),
     }),
   },
   /** What the model's replies to a request mean. `texts`: one for each vote that arrived. */

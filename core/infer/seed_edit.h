@@ -1,17 +1,26 @@
-// Majority voting over the replies to one prompt. ParSEL §6.2.1.
+// The task that asks for the seed edit: what a reply says, and the majority of the replies. ParSEL §6.2.1.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "core/infer/reply.h"
+#include "core/infer/task.h"
+#include "core/propagate/edit_request.h"
 
 namespace parsel {
 
-/// Type hints are kept when at least this share of the replies gives them.
-inline constexpr double hint_share = 0.6;
+/// Either statements (ids of the shape, amounts in x, all that resolve() asks for) or the reason why there are none.
+struct SeedReply {
+  std::vector<Statement> statements;
+  std::string unclear;  ///< the model's words, printable, at most 300 bytes
+};
+
+/// {"edits": [statement, …]} or {"unclear": "why"}. A statement is one of `parsel/edit`, or says the same more loosely:
+/// directions as "x", "-y", "up", features and origins as "top" or "front left", amounts and origins left out (the
+/// amount is then x, for a count 8*x; the origin is the middle of the feature).
+Result<SeedReply> read_seed_reply(const Shape& shape, std::string_view reply);
 
 struct Reading {
   std::vector<Statement> statements;  ///< the form that most of its votes have, the first of them in a tie
@@ -30,23 +39,9 @@ struct SeedVote {
 };
 std::string_view to_string(SeedVote::Outcome outcome);
 
-struct HintVote {
-  std::string part;
-  Hint hint = Hint::translate;
-  int votes = 0, of = 0;
-};
-
-struct RelationVote {
-  RelationIndex relation;
-  bool keep = true;  ///< a tie keeps, as the shape is
-  int votes = 0;     ///< for `keep`
-  int of = 0;
-};
-
 /// Replies are equal votes by reading_signature().
 SeedVote vote(const Shape& shape, const std::vector<SeedReply>& replies);
-/// The hints kept, by part.
-std::vector<HintVote> vote(const std::vector<std::map<std::string, Hint>>& replies);
-RelationVote vote(RelationIndex relation, const std::vector<bool>& keeps);
+
+extern const Task seed_edit_task;
 
 }  // namespace parsel
