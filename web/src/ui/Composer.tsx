@@ -33,6 +33,7 @@ const heights = new ResizeObserver(([entry]) => {
 function tellHeight(element: HTMLElement | null): void {
   heights.disconnect();
   if (element !== null) heights.observe(element);
+  else globalThis.document.documentElement.style.removeProperty('--composer-height');
 }
 
 /** @param picking whether clicks in the view belong to the edit by hand */
@@ -138,7 +139,7 @@ function Mentions() {
     <>
       {known.map((id) => (
         <span class="mention" key={id}>
-          {nameOf(document.value, id)}
+          <span>{nameOf(document.value, id)}</span>
           <button
             type="button"
             aria-label={`Do not mention ${nameOf(document.value, id)}`}
