@@ -8,6 +8,7 @@ type Call = Request & { kind: 'call' };
 class FakeWorker implements WorkerLike {
   onmessage: ((event: MessageEvent<Response>) => void) | null = null;
   onerror: ((event: ErrorEvent) => void) | null = null;
+  ondeath: (() => void) | null = null;
   terminated = false;
   readonly calls: Call[] = [];
 
@@ -137,6 +138,19 @@ describe('a crash of the module', () => {
     expect((await behind).result.version).toBe('1.2.3');
     expect(workers).toHaveLength(2);
     expect(workers[1]?.calls.map((call) => call.method)).toEqual(['warm_up', 'version']);
+  });
+
+  it('is noticed when the browser ends the worker without a word', async () => {
+    const { client: core, workers } = client((call, worker) => {
+      if (call.method === 'fail') queueMicrotask(() => worker.ondeath?.());
+      else answerVersion(call, worker);
+    });
+    await expect(core.call('fail', { kind: 'memory' })).rejects.toThrow('the browser ended it');
+    expect((await core.call('version', {})).result.version).toBe('1.2.3');
+    expect(workers).toHaveLength(2);
+    workers[0]?.ondeath?.(); // of one that has been replaced, nothing is heard
+    expect((await core.call('version', {})).result.version).toBe('1.2.3');
+    expect(workers).toHaveLength(2);
   });
 
   it('drops state that crashes when it is replayed, instead of crashing for ever', async () => {

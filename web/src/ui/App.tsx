@@ -10,6 +10,7 @@ import { dialog, openAny } from './actions';
 import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
 import { EditsPanel } from './EditsPanel';
+import { isEmbedded } from './frame';
 import { Handles } from './Handles';
 import { HelpDialog } from './HelpDialog';
 import { Icon } from './Icon';
@@ -24,7 +25,7 @@ import { StatusLine } from './StatusLine';
 import { listenForShortcuts } from './shortcuts';
 import { TopBar } from './TopBar';
 import { Tour, TourOffer } from './Tour';
-import { isEmbedded, welcome } from './welcome';
+import { welcome } from './welcome';
 import type { FeatureKind } from './words';
 
 const phone = matchMedia('(max-width: 720px)');

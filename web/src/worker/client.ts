@@ -12,6 +12,7 @@ import {
   type Request,
   type Response,
 } from './protocol';
+import { watched } from './watch';
 
 /** The core refused, or could not do it. `message` is one sentence for people. */
 export class CoreError extends Error {
@@ -50,6 +51,8 @@ export interface WorkerLike {
   terminate(): void;
   onmessage: ((event: MessageEvent<Response>) => void) | null;
   onerror: ((event: ErrorEvent) => void) | null;
+  /** It has ended without a word: browsers end workers that want too much memory, and tell nobody. */
+  ondeath?: (() => void) | null;
 }
 
 /** Replayed calls have no caller. */
@@ -152,6 +155,9 @@ export class CoreClient {
     worker.onerror = (event) => {
       if (worker === this.#worker) this.#receive({ kind: 'crashed', text: event.message });
     };
+    worker.ondeath = () => {
+      if (worker === this.#worker) this.#receive({ kind: 'crashed', text: 'the browser ended it' });
+    };
     worker.postMessage({ kind: 'start', module: this.module });
   }
 
@@ -213,8 +219,7 @@ export class CoreClient {
 /** Compiles the module and starts the worker of the page. */
 export async function startCore(wasmUrl: string): Promise<CoreClient> {
   const module = await WebAssembly.compileStreaming(fetch(wasmUrl));
-  return new CoreClient(
-    module,
-    () => new Worker(new URL('./core.worker.ts', import.meta.url), { type: 'module', name: 'parsel-core' }),
+  return new CoreClient(module, () =>
+    watched((name) => new Worker(new URL('./core.worker.ts', import.meta.url), { type: 'module', name })),
   );
 }
