@@ -12,7 +12,7 @@ import { Dimensions } from './Dimensions';
 import { EditsPanel } from './EditsPanel';
 import { isEmbedded } from './frame';
 import { Handles } from './Handles';
-import { HelpDialog } from './HelpDialog';
+import { HelpDialog, Licences } from './HelpDialog';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
 import { ModelDialog } from './ModelDialog';
@@ -90,7 +90,10 @@ export function App() {
       </main>
       {!isPhone.value && (
         <footer class="foot quiet">
-          After <a href="https://arxiv.org/abs/2405.20319">ParSEL</a>, Ganeshan et al. 2024
+          <p>
+            After <a href="https://arxiv.org/abs/2405.20319">ParSEL</a>, Ganeshan et al. 2024
+          </p>
+          <Licences />
         </footer>
       )}
       <Tour />

@@ -19,6 +19,22 @@ const keys: readonly (readonly [keys: string, what: string])[] = [
   ['Double-click on a slider', 'back to the model as it was'],
 ];
 
+/** The build puts both files beside the page. */
+export function Licences() {
+  return (
+    <p>
+      Free software, GPL 3 or later:{' '}
+      <a href="./licences.txt" target="_blank" rel="noopener">
+        licences
+      </a>
+      ,{' '}
+      <a href="./source.tar.gz" download>
+        source
+      </a>
+    </p>
+  );
+}
+
 export function HelpDialog() {
   return (
     <Dialog
@@ -43,6 +59,9 @@ export function HelpDialog() {
         After <a href="https://arxiv.org/abs/2405.20319">ParSEL: Parameterized Shape Editing with Language</a>, Ganeshan
         et al. 2024. Models never leave this machine.
       </p>
+      <div class="quiet">
+        <Licences />
+      </div>
     </Dialog>
   );
 }
