@@ -12,11 +12,12 @@ import {
   noLabels,
   type OpenModel,
 } from './document';
+import { misfit } from './evaluation';
 import { addressOf, type FileSet, modelOf, readUrl } from './files';
 import { galleryUrl } from './gallery';
 import type { ModelCore } from './model_core';
 import { carryOver } from './relabel';
-import { document, misfit, newEntry, replaceDocument, run, say } from './session';
+import { document, newEntry, replaceDocument, run, say } from './session';
 
 /** Meshes that have been read for a model that is about to be shown; the stage takes them. */
 const prepared = new WeakMap<ModelFiles, LoadedModel>();

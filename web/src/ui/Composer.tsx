@@ -16,7 +16,7 @@ import {
   requestText,
   sendRequest,
   unmention,
-} from '../session/request';
+} from '../session/requests';
 import { document, selection } from '../session/session';
 import { dialog } from './actions';
 import { Icon } from './Icon';

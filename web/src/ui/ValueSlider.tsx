@@ -4,10 +4,11 @@ import { useComputed, useSignal } from '@preact/signals';
 import { useId } from 'preact/hooks';
 import type { LayerEntry } from '../session/document';
 import { nameOf } from '../session/document';
+import { titleOf } from '../session/layers';
 import { formatMeasure, larger, type Measure, measureOf, parseMeasure } from '../session/measure';
 import { interrupt } from '../session/play';
 import { readLayer } from '../session/reading';
-import { compiled, document, settle, setValue, slide, sliderValue, step, titleOf } from '../session/session';
+import { compiled, document, settle, setValue, slide, sliderValue, step } from '../session/session';
 
 const steps = 200;
 

@@ -7,7 +7,7 @@ import { loadGallery } from '../session/gallery';
 import type { ModelCore } from '../session/model_core';
 import { openGallery, openSaved, reopen } from '../session/open';
 import { playOnce } from '../session/play';
-import { forgetOtherModels } from '../session/request';
+import { forgetOtherModels } from '../session/requests';
 import { document, propagate, say } from '../session/session';
 import { readFragment } from '../share/link';
 import { isEmbedded } from './frame';
