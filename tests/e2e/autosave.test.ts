@@ -4,7 +4,7 @@ import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { openModel, outputFolder, pick, useSite } from './harness';
+import { openModel, outputFolder, pick, saved, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -23,8 +23,6 @@ afterEach(async () => {
 
 const values = (of: Page) => of.evaluate(() => parsel.document().layers.map(({ value }) => value));
 const name = (of: Page) => of.evaluate(() => parsel.document().model?.files.name);
-/** Without waiting for the pause that saving waits for. */
-const saved = async (of: Page = page) => expect(await of.evaluate(() => parsel.flushed())).toBe(true);
 
 async function addEdits(to: Page): Promise<void> {
   const shape = (await to.evaluate(() => parsel.document().model?.shape)) as Shape;
@@ -47,7 +45,7 @@ const openSecond = async (tab: Page) => {
 describe('the work of a tab', () => {
   it('is there after a reload that leaves no time to save', async () => {
     await addEdits(page);
-    await saved();
+    await saved(page);
     await page.getByRole('slider').first().fill('0.31');
     await page.reload();
     await page.locator('.card').nth(2).waitFor();
@@ -59,7 +57,7 @@ describe('the work of a tab', () => {
     const other = await newTab();
     await openSecond(other);
     await page.getByRole('slider').first().fill('0.2');
-    await saved();
+    await saved(page);
     await Promise.all([page.reload(), other.reload()]);
     await page.locator('.card').nth(2).waitFor();
     expect((await values(page))[0]).toBeCloseTo(0.2);
@@ -70,7 +68,7 @@ describe('the work of a tab', () => {
 
   it('is where a new tab begins, and goes on by itself from there', async () => {
     await addEdits(page);
-    await saved();
+    await saved(page);
     const other = await newTab();
     await other.locator('.card').nth(2).waitFor();
     await other.getByRole('slider').first().fill('0.11');
@@ -82,7 +80,7 @@ describe('the work of a tab', () => {
 
   it('stays with the first when a tab is duplicated', async () => {
     await addEdits(page);
-    await saved();
+    await saved(page);
     // A duplicate begins with the other's session storage, the name of its record included.
     const kept = await page.evaluate(() => ({ ...sessionStorage }));
     const duplicate = await context.newPage();

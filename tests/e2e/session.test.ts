@@ -5,7 +5,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import type { Layer, Shape, Statement } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { openModel, useSite } from './harness';
+import { openModel, saved, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -194,7 +194,7 @@ describe('the work', () => {
       );
     const before = await content();
     const corners = await page.evaluate(() => parsel.corners());
-    await page.waitForTimeout(1000); // saving waits for a pause
+    await saved(page);
     await page.reload();
     await page.locator('.card').nth(2).waitFor();
     expect(await content()).toEqual(before);
