@@ -240,7 +240,7 @@ describe('an edit by hand', () => {
     await page.getByRole('checkbox', { name: 'all even rows' }).check();
     await page.getByText('What other parts should do').click();
     await page.getByLabel('Add a part').selectOption({ index: 1 });
-    await page.getByRole('button', { name: 'Propagate' }).click();
+    await page.getByRole('button', { name: 'Apply' }).click();
     await page.locator('.card').nth(3).waitFor();
     const [edit] = await page.evaluate(() => (globalThis as unknown as { seen: unknown[] }).seen);
     expect(edit).toMatchObject({
@@ -271,7 +271,7 @@ describe('an edit by hand', () => {
     });
     await page.getByRole('button', { name: 'Edit by hand' }).click();
     await page.getByLabel('Part to edit').selectOption('seat');
-    await page.getByRole('button', { name: 'Propagate' }).click();
+    await page.getByRole('button', { name: 'Apply' }).click();
     await expect
       .poll(() => page.getByRole('alert').textContent())
       .toBe('The seat cannot do that; choose another operator.');

@@ -38,10 +38,22 @@ describe('a session', () => {
     expect(session.document.value.layers.map(({ value }) => value)).toEqual([0, 0]); // not settled yet
   });
 
-  it('takes a run of moves of one slider as one step', () => {
+  it('takes every drag of a slider as a step', () => {
     const { session } = opened();
     const [key = 0] = session.addProgram(moving('left'), 'add') ?? [];
-    for (const value of [0.1, 0.2, 0.3]) session.setValue(key, value);
+    for (const value of [0.1, 0.2]) {
+      session.slide(key, value);
+      session.settle(key);
+    }
+    expect(session.undoLabel.value).toBe('slide “Edit”');
+    session.undo();
+    expect(session.document.value.layers[0]?.value).toBe(0.1);
+  });
+
+  it('takes a run of moves of one slider by key as one step', () => {
+    const { session } = opened();
+    const [key = 0] = session.addProgram(moving('left'), 'add') ?? [];
+    for (const value of [0.1, 0.2, 0.3]) session.setValue(key, value, true);
     session.settle(key); // nothing has moved
     expect(session.document.value.layers[0]?.value).toBe(0.3);
     session.undo();

@@ -12,7 +12,8 @@ import type { Trace } from './trace';
 export interface Layers {
   /** Keeps where a slider has been moved to, as one step of the history. */
   settle(key: number): void;
-  setValue(key: number, value: number): void;
+  /** @param inRun of the steps of a run, such as the arrow keys make, all but the first are none of their own */
+  setValue(key: number, value: number, inRun?: boolean): void;
   /** Makes the draft a layer of the work, where its slider stands; answers its key. One step of the history. */
   keepDraft(): number | null;
   newEntry(layer: Layer, value?: number, enabled?: boolean): LayerEntry;
@@ -115,18 +116,19 @@ export function createLayers(
     );
   }
 
-  function settle(key: number): void {
+  function settle(key: number, inRun = false): void {
     const entry = document.peek().layers.find((other) => other.key === key);
     if (entry === undefined || sliderValue(entry) === entry.value) return;
     const value = sliderValue(entry);
-    changeLayers(`“${titleOf(entry.layer)}”`, (layers) => replace(layers, key, { value }), `value ${key}`);
+    const label = `slide “${titleOf(entry.layer)}”`;
+    changeLayers(label, (layers) => replace(layers, key, { value }), inRun ? `value ${key}` : undefined);
   }
 
   return {
-    settle,
-    setValue(key, value) {
+    settle: (key) => settle(key),
+    setValue(key, value, inRun = false) {
       slide(key, value);
-      settle(key);
+      settle(key, inRun);
     },
     keepDraft() {
       const entry = draft.peek();

@@ -83,6 +83,8 @@ export function Composer({ picking }: { picking: boolean }) {
             aria-label="What to change"
             onInput={(event) => {
               requestText.value = event.currentTarget.value;
+              // What was wrong with a request goes with it.
+              if (requestText.value === '' && state.kind === 'failed') dismiss();
             }}
             onKeyDown={onKeyDown}
             onFocus={() => {

@@ -57,7 +57,8 @@ export function HelpDialog() {
       </dl>
       <p class="quiet">
         After <a href="https://arxiv.org/abs/2405.20319">ParSEL: Parameterized Shape Editing with Language</a>, Ganeshan
-        et al. 2024. Models never leave this machine.
+        et al. 2024. Models never leave this machine. When you ask a language model, its provider gets your request and
+        the names, sizes and relations of the parts.
       </p>
       <div class="quiet">
         <Licences />
