@@ -3,6 +3,7 @@ import preact from '@preact/preset-vite';
 import { defineConfig, type Plugin } from 'vite';
 import { VitePWA } from 'vite-plugin-pwa';
 import { contentSecurityPolicy } from './csp.ts';
+import { licencePlugin } from './licences.ts';
 
 /** The policy as a <meta> in the page, so that it holds on any static host, and as a header where we are the server. */
 function securityPolicy(): Plugin {
@@ -52,7 +53,7 @@ const offline = VitePWA({
     ],
   },
   workbox: {
-    globPatterns: ['**/*.{html,js,css,wasm,svg,png,json,glb}'],
+    globPatterns: ['**/*.{html,js,css,wasm,svg,png,json,glb,txt}'],
     maximumFileSizeToCacheInBytes: 16 * 2 ** 20,
     ignoreURLParametersMatching: [/./], // ?embed and ?debug are the same page
     navigateFallback: null, // one page, and other addresses are none of it
@@ -62,7 +63,7 @@ const offline = VitePWA({
 
 export default defineConfig({
   base: './', // the built page works from any sub-path
-  plugins: [securityPolicy(), preact({ devToolsEnabled: false, prefreshEnabled: false }), offline],
+  plugins: [securityPolicy(), preact({ devToolsEnabled: false, prefreshEnabled: false }), licencePlugin(), offline],
   resolve: {
     // CMake builds the module into the top-level build folder.
     alias: { 'parsel-module': fileURLToPath(new URL('../build/wasm/wasm', import.meta.url)) },

@@ -9,7 +9,6 @@ export default defineConfig({
     include: ['tests/e2e/**/*.test.ts'],
     environment: 'node',
     fileParallelism: false,
-    retry: 1, // software rendering on a busy machine misses a deadline now and then; what is broken fails twice
     testTimeout: 120_000,
     expect: { poll: { timeout: 20_000 } }, // a busy machine draws slowly
     hookTimeout: 60_000,

@@ -186,6 +186,11 @@ async function expectEnabled(locator: Locator): Promise<void> {
   await locator.and(locator.page().locator(':enabled')).waitFor({ state: 'attached' });
 }
 
+/** Has the work written to the browser's store, without waiting for the pause that saving waits for. */
+export async function saved(page: Page): Promise<void> {
+  if (!(await page.evaluate(() => parsel.flushed()))) throw new Error('the browser keeps no work');
+}
+
 /** Exports through the menu; answers where the file is. */
 export async function download(page: Page, item: string): Promise<string> {
   await page.getByRole('button', { name: 'Export' }).click();

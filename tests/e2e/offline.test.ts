@@ -9,7 +9,7 @@ import type { Program, Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { compress } from '../web/compressed';
 import { program, stool } from './fixture';
-import { dist, openModel, openPage, pick, serve, useSite } from './harness';
+import { dist, openModel, openPage, pick, saved, serve, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -75,7 +75,7 @@ describe('a newer version', () => {
     const edits: Program = program((await one.evaluate(() => parsel.document().model?.shape)) as Shape);
     await one.evaluate((all) => parsel.addProgram(all, 'test'), edits);
     await one.getByRole('slider').first().fill('0.31');
-    await one.waitForTimeout(1000); // saving waits for a pause
+    await saved(one);
     const two = await one.context().newPage();
     await two.goto(`${url}?debug`);
     await two.locator('.card').nth(2).waitFor();

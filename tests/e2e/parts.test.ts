@@ -4,7 +4,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { openModel, outputFolder, stillPicture, useSite } from './harness';
+import { openModel, outputFolder, saved, stillPicture, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -67,7 +67,7 @@ describe('a label', () => {
 
   it('is there again after a reload', async () => {
     await giveLabel('seat', 'lid');
-    await page.waitForTimeout(1000); // saving waits for a pause
+    await saved(page);
     await page.reload();
     await page.getByRole('button', { name: 'lid', exact: true }).waitFor();
     expect(await partNames()).not.toContain('seat');

@@ -6,8 +6,8 @@ import { type CheckedProgram, checkProgram } from '../../web/src/program/check';
 import { interpretProgram } from '../../web/src/program/interpret';
 import type { Corners, Shape, Vec3 } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
-import { program, stool, verticesOf } from './fixture';
-import { openModel, outputFolder, stillPicture, useSite } from './harness';
+import { program, stool, stoolGltf, toGlb, verticesOf } from './fixture';
+import { openModel, openPage, outputFolder, pick, stillPicture, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -157,6 +157,65 @@ describe('the cage on the graphics card', () => {
     await page.screenshot({ path: `${outputFolder}/selected.png` });
     await page.keyboard.press('Escape');
     expect(await page.locator('.part.selected').count()).toBe(0);
+  });
+
+  it('draws models alike whatever their names are: nothing of a file reaches a shader', async () => {
+    const picture = async (name: string | null) => {
+      const { json, binary } = stoolGltf();
+      const named = (list: unknown) => (list as object[]).map((item) => (name === null ? item : { ...item, name }));
+      const texture =
+        'iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8DwHwAFBQIAX8jx0gAAAABJRU5ErkJggg==';
+      const materials = (json['materials'] as { pbrMetallicRoughness: object }[]).map((material) => ({
+        ...material,
+        pbrMetallicRoughness: { ...material.pbrMetallicRoughness, baseColorTexture: { index: 0 } },
+      }));
+      const model = toGlb({
+        json: {
+          ...json,
+          meshes: named(json['meshes']),
+          materials: named(materials),
+          textures: named([{ source: 0, sampler: 0 }]),
+          images: named([{ uri: `data:image/png;base64,${texture}` }]),
+          samplers: named([{}]),
+        },
+        binary,
+      });
+      const { page: own, complaints: heard } = await openPage(
+        site.browser,
+        `${site.url}?debug`,
+        {},
+        async (context) => {
+          await withoutGallery(context);
+          await context.addInitScript(() => {
+            const sources: string[] = [];
+            Object.assign(globalThis, { shaderSources: sources });
+            const original = WebGL2RenderingContext.prototype.shaderSource;
+            WebGL2RenderingContext.prototype.shaderSource = function (shader, source) {
+              sources.push(source);
+              return original.call(this, shader, source);
+            };
+          });
+        },
+      );
+      await pick(own, [{ name: 'stool.glb', mimeType: 'model/gltf-binary', buffer: model }]);
+      await own.waitForFunction(() => parsel.stage()?.isShown());
+      const pixels = await stillPicture(own);
+      const sources = await own.evaluate(() => (globalThis as unknown as { shaderSources: string[] }).shaderSources);
+      expect(sources.length).toBeGreaterThan(0);
+      expect(sources.filter((source) => source.includes('hostile'))).toEqual([]);
+      expect(heard).toEqual([]);
+      await own.context().close();
+      return pixels;
+    };
+    const plain = await picture(null);
+    for (const name of [
+      'hostile /* dark',
+      'hostile\n#error hostile',
+      'hostile\rvoid main() { gl_Position = vec4(0.0); }\n/*',
+      'hostile \\',
+      'hostile */ #define main hostile',
+    ])
+      expect((await picture(name)).equals(plain), JSON.stringify(name)).toBe(true);
   });
 
   it('survives the loss of the graphics context', async () => {

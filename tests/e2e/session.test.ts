@@ -5,7 +5,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import type { Layer, Shape, Statement } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { openModel, useSite } from './harness';
+import { openModel, saved, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -194,7 +194,7 @@ describe('the work', () => {
       );
     const before = await content();
     const corners = await page.evaluate(() => parsel.corners());
-    await page.waitForTimeout(1000); // saving waits for a pause
+    await saved(page);
     await page.reload();
     await page.locator('.card').nth(2).waitFor();
     expect(await content()).toEqual(before);
@@ -240,7 +240,7 @@ describe('an edit by hand', () => {
     await page.getByRole('checkbox', { name: 'all even rows' }).check();
     await page.getByText('What other parts should do').click();
     await page.getByLabel('Add a part').selectOption({ index: 1 });
-    await page.getByRole('button', { name: 'Propagate' }).click();
+    await page.getByRole('button', { name: 'Apply' }).click();
     await page.locator('.card').nth(3).waitFor();
     const [edit] = await page.evaluate(() => (globalThis as unknown as { seen: unknown[] }).seen);
     expect(edit).toMatchObject({
@@ -271,7 +271,7 @@ describe('an edit by hand', () => {
     });
     await page.getByRole('button', { name: 'Edit by hand' }).click();
     await page.getByLabel('Part to edit').selectOption('seat');
-    await page.getByRole('button', { name: 'Propagate' }).click();
+    await page.getByRole('button', { name: 'Apply' }).click();
     await expect
       .poll(() => page.getByRole('alert').textContent())
       .toBe('The seat cannot do that; choose another operator.');

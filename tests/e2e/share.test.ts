@@ -1,5 +1,8 @@
 // Links and session files: what one person sees, the other sees.
 import { readFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
+import type { AddressInfo } from 'node:net';
+import { zipSync } from 'fflate';
 import type { Page } from 'playwright-core';
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
@@ -9,6 +12,7 @@ import {
   download,
   openModel,
   openPage,
+  outputFolder,
   pick,
   useSite,
   type WatchedPage,
@@ -116,6 +120,40 @@ describe('a link', () => {
     }
   });
 
+  it('never fetches an address that it names by itself, nor hides it', async () => {
+    const asked: string[] = [];
+    const other = createServer((request, response) => {
+      asked.push(`${request.method} ${request.url}`);
+      response.writeHead(200, { 'Access-Control-Allow-Origin': '*' }).end(stool);
+    });
+    await new Promise<void>((resolve) => other.listen(0, '127.0.0.1', resolve));
+    const address = `http://127.0.0.1:${(other.address() as AddressInfo).port}/reboot?now=1`;
+    const session = JSON.parse(await readFile(await download(page, 'Session'), 'utf8'));
+    session.model.url = address;
+    const fragment = await page.evaluate(async (json) => {
+      const stream = new Blob([json]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+      const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+      return `#v1.${btoa(String.fromCharCode(...bytes))
+        .replaceAll('+', '-')
+        .replaceAll('/', '_')
+        .replaceAll('=', '')}`;
+    }, JSON.stringify(session));
+
+    const fresh = await openLink(fragment);
+    const fetchIt = fresh.page.getByRole('button', { name: 'Fetch it' });
+    await fetchIt.waitFor();
+    expect(await fresh.page.locator('.address').textContent()).toBe(address);
+    await fresh.page.screenshot({ path: `${outputFolder}/link-address.png` });
+    expect(asked).toEqual([]);
+    await fetchIt.click();
+    await fresh.page.locator('.card').nth(2).waitFor();
+    expect(asked).toEqual(['GET /reboot?now=1']);
+    expect(await corners(fresh.page)).toEqual(await corners(page));
+    expect(fresh.complaints).toEqual([]);
+    await fresh.page.context().close();
+    other.close();
+  });
+
   it.each([
     ['of a newer version', '#v7.abcd', /newer ParSEL/],
     ['that was cut', '#v1.q1YqSyzKTC5RslJKS', /damaged/],
@@ -152,6 +190,24 @@ describe('files', () => {
     await pick(fresh.page, [{ name: 'a.parsel.json', mimeType: 'application/json', buffer: await readFile(path) }]);
     await fresh.page.locator('.card').nth(2).waitFor();
     expect(await corners(fresh.page)).toEqual(await corners(page));
+    await fresh.page.context().close();
+  });
+
+  it('a session file and its model open together, alone or in a zip; damage costs no more than its element', async () => {
+    const path = await download(page, 'Session');
+    const session = JSON.parse(await readFile(path, 'utf8'));
+    session.program.layers[1].statements = 7;
+    const damaged = Buffer.from(JSON.stringify(session));
+    const json = { mimeType: 'application/json', name: 'a.parsel.json' };
+    const fresh = await openPage(site.browser, `${site.url}?debug`, {}, withoutGallery);
+    await pick(fresh.page, [...file(stool), { ...json, buffer: await readFile(path) }]);
+    await fresh.page.locator('.card').nth(2).waitFor();
+    expect(await corners(fresh.page)).toEqual(await corners(page));
+
+    const zip = zipSync({ 'a/stool.glb': stool, 'a/a.parsel.json': damaged });
+    await pick(fresh.page, [{ name: 'a.zip', mimeType: 'application/zip', buffer: Buffer.from(zip) }]);
+    await expect.poll(() => fresh.page.locator('.card').count()).toBe(2);
+    await expect.poll(() => fresh.page.getByRole('status').first().textContent()).toMatch(/damaged.*left out: edit 2/);
     await fresh.page.context().close();
   });
 

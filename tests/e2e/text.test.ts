@@ -5,7 +5,7 @@ import { programText } from '../../web/src/program/text';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { openModel, useSite } from './harness';
+import { openModel, saved, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -88,7 +88,7 @@ describe('the tour', () => {
     await page.keyboard.press('Escape');
     expect(await tour().count()).toBe(0);
     await page.getByRole('button', { name: /^Redo/ }).click();
-    await page.waitForTimeout(1000); // saving waits for a pause
+    await saved(page);
     await page.reload();
     await page.locator('.card').first().waitFor();
     expect(await offer.count()).toBe(0);

@@ -48,6 +48,32 @@ describe('the worker', () => {
     expect(version).toMatch(/^\d+\.\d+\.\d+$/);
   });
 
+  it('survives: ended without a word', async () => {
+    await page.waitForFunction(() => parsel.isReady());
+    const worker = page.workers()[0];
+    const hanging = page.evaluate(() =>
+      parsel
+        .client()
+        .call('version', {})
+        .then(({ result }) => result.version),
+    );
+    await hanging;
+    await worker?.evaluate(() => self.close()).catch(() => {}); // as browsers do when memory is short
+    await expect
+      .poll(() =>
+        page.evaluate(() =>
+          parsel
+            .client()
+            .call('version', {})
+            .then(
+              () => true,
+              () => false,
+            ),
+        ),
+      )
+      .toBe(true);
+  });
+
   it('turns an exception inside the core into an error, without a new worker', async () => {
     const { message, respawns } = await page.evaluate(async () => {
       const client = parsel.client();

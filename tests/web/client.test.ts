@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
-import { CoreClient, CoreError, type WorkerLike } from '../../web/src/worker/client';
+import { CoreClient, CoreError, type CoreState, type WorkerLike } from '../../web/src/worker/client';
 import type { Request, Response } from '../../web/src/worker/protocol';
 
 type Call = Request & { kind: 'call' };
@@ -8,6 +8,7 @@ type Call = Request & { kind: 'call' };
 class FakeWorker implements WorkerLike {
   onmessage: ((event: MessageEvent<Response>) => void) | null = null;
   onerror: ((event: ErrorEvent) => void) | null = null;
+  ondeath: (() => void) | null = null;
   terminated = false;
   readonly calls: Call[] = [];
 
@@ -123,56 +124,118 @@ describe('cancelling', () => {
   });
 });
 
-describe('a crash of the module', () => {
-  it('fails the call that caused it, replays the state and goes on', async () => {
-    const { client: core, workers } = client((call, worker) => {
-      if (call.method === 'fail') worker.emit({ kind: 'crashed', text: 'out of memory' });
-      else if (call.method === 'warm_up') worker.reply(call, { result: {} });
-      else answerVersion(call, worker);
-    });
-    await core.call('warm_up', {}, { state: 'model' });
-    const crashing = core.call('fail', { kind: 'memory' });
-    const behind = core.call('version', {});
-    await expect(crashing).rejects.toThrow('out of memory');
-    expect((await behind).result.version).toBe('1.2.3');
-    expect(workers).toHaveLength(2);
-    expect(workers[1]?.calls.map((call) => call.method)).toEqual(['warm_up', 'version']);
+const model: CoreState = { method: 'warm_up', parameters: {}, buffers: [new Uint8Array([7])] };
+const another: CoreState = { ...model };
+
+/** Answers every call but `fail`, which crashes; `methods` is what each worker was asked. */
+function crashing(answer: (call: Call, worker: FakeWorker) => void = () => {}) {
+  const made = client((call, worker) => {
+    if (call.method === 'fail') worker.emit({ kind: 'crashed', text: 'out of memory' });
+    else if (call.method === 'version') answerVersion(call, worker);
+    else {
+      worker.reply(call, { result: {} });
+      answer(call, worker);
+    }
+  });
+  return { ...made, methods: (worker: number) => made.workers[worker]?.calls.map(({ method }) => method) };
+}
+
+describe('a state that a call needs', () => {
+  it('is set up once, however many calls need it', async () => {
+    const { client: core, methods, workers } = crashing();
+    await Promise.all([1, 2].map(() => core.call('version', {}, { needs: model })));
+    expect(methods(0)).toEqual(['warm_up', 'version', 'version']);
+    expect(workers[0]?.calls[0]?.buffers).toEqual(model.buffers);
   });
 
-  it('drops state that crashes when it is replayed, instead of crashing for ever', async () => {
-    let setUp = false;
-    const { client: core, workers } = client((call, worker) => {
-      if (call.method === 'version') answerVersion(call, worker);
-      else if (call.method === 'warm_up' && !setUp) {
-        setUp = true;
-        worker.reply(call, { result: {} });
-      } else worker.emit({ kind: 'crashed', text: 'unreachable' });
-    });
-    core.onStateLost = vi.fn();
-    await core.call('warm_up', {}, { state: 'model' });
-    await expect(core.call('fail', { kind: 'abort' })).rejects.toThrow('unreachable');
-    await vi.waitFor(() => expect(workers).toHaveLength(3));
-    expect(core.onStateLost).toHaveBeenCalledTimes(1);
-    expect((await core.call('version', {})).result.version).toBe('1.2.3');
-    expect(workers).toHaveLength(3);
+  it('is set up again when another has taken its place', async () => {
+    const { client: core, methods } = crashing();
+    for (const needs of [model, another, model]) await core.call('version', {}, { needs });
+    expect(methods(0)).toEqual(['warm_up', 'version', 'warm_up', 'version', 'warm_up', 'version']);
   });
 
-  it('says when state is refused as it is replayed', async () => {
-    let setUp = false;
+  it('is there when it was set up for what it gives', async () => {
+    const { client: core, methods } = crashing();
+    await core.setUp(model);
+    await core.call('version', {}, { needs: model });
+    expect(methods(0)).toEqual(['warm_up', 'version']);
+  });
+
+  it('tells whoever needs it that the core refuses it, and is tried again by the next', async () => {
+    let refuses = true;
+    const error = { stage: 's', place: 'accessor 3', cause: 'it is broken', fix: 'export it again' };
     const { client: core } = client((call, worker) => {
-      if (call.method === 'fail') worker.emit({ kind: 'crashed', text: 'out of memory' });
-      else if (call.method === 'version') answerVersion(call, worker);
-      else if (setUp) worker.reply(call, { error: { stage: 's', place: 'p', cause: 'no memory', fix: 'none' } });
+      if (call.method === 'version') answerVersion(call, worker);
+      else worker.reply(call, refuses ? { error } : { result: {} });
+    });
+    await expect(core.call('version', {}, { needs: model })).rejects.toThrow('accessor 3: it is broken');
+    refuses = false;
+    expect((await core.call('version', {}, { needs: model })).result.version).toBe('1.2.3');
+  });
+
+  it('says how far it is to whoever waits for it', async () => {
+    const { client: core } = client((call, worker) => {
+      if (call.method === 'version') answerVersion(call, worker);
       else {
-        setUp = true;
+        worker.emit({ kind: 'progress', id: call.id, step: 'reading', done: 1, total: 2 });
         worker.reply(call, { result: {} });
       }
     });
-    core.onStateLost = vi.fn();
-    await core.call('warm_up', {}, { state: 'model' });
-    await expect(core.call('fail', { kind: 'memory' })).rejects.toThrow('out of memory');
+    const onProgress = vi.fn();
+    await core.call('version', {}, { needs: model, onProgress });
+    expect(onProgress).toHaveBeenCalledTimes(1);
+  });
+});
+
+describe('a crash of the module', () => {
+  it('fails the call that caused it and goes on; a new worker gets the state before the next call asks', async () => {
+    const { client: core, methods, workers } = crashing();
+    await core.setUp(model);
+    await expect(core.call('fail', { kind: 'memory' }, { needs: model })).rejects.toThrow('out of memory');
+    await vi.waitFor(() => expect(methods(1)).toEqual(['warm_up']));
+    expect((await core.call('version', {}, { needs: model })).result.version).toBe('1.2.3');
+    expect(methods(1)).toEqual(['warm_up', 'version']);
+    expect(workers).toHaveLength(2);
+  });
+
+  it('does not touch the calls behind it', async () => {
+    const { client: core, methods } = crashing();
+    await core.setUp(model);
+    const failing = core.call('fail', { kind: 'memory' }, { needs: model });
+    const behind = core.call('version', {}, { needs: model });
+    await expect(failing).rejects.toThrow('out of memory');
+    expect((await behind).result.version).toBe('1.2.3');
+    expect(methods(1)).toEqual(['warm_up', 'version']);
+  });
+
+  it('in setting up a state is told to whoever needs it, and does not go on for ever', async () => {
+    let crashes = false;
+    const { client: core, workers } = client((call, worker) => {
+      if (call.method === 'version') answerVersion(call, worker);
+      else if (crashes || call.method === 'fail') worker.emit({ kind: 'crashed', text: 'unreachable' });
+      else worker.reply(call, { result: {} });
+    });
+    await core.setUp(model);
+    crashes = true;
+    await expect(core.call('fail', { kind: 'abort' })).rejects.toThrow('unreachable');
+    await vi.waitFor(() => expect(workers).toHaveLength(3));
     expect((await core.call('version', {})).result.version).toBe('1.2.3');
-    expect(core.onStateLost).toHaveBeenCalledTimes(1);
+    expect(workers).toHaveLength(3);
+    await expect(core.call('version', {}, { needs: model })).rejects.toThrow('unreachable');
+    expect(workers).toHaveLength(4);
+  });
+
+  it('is noticed when the browser ends the worker without a word', async () => {
+    const { client: core, workers } = client((call, worker) => {
+      if (call.method === 'fail') queueMicrotask(() => worker.ondeath?.());
+      else answerVersion(call, worker);
+    });
+    await expect(core.call('fail', { kind: 'memory' })).rejects.toThrow('the browser ended it');
+    expect((await core.call('version', {})).result.version).toBe('1.2.3');
+    expect(workers).toHaveLength(2);
+    workers[0]?.ondeath?.(); // of one that has been replaced, nothing is heard
+    expect((await core.call('version', {})).result.version).toBe('1.2.3');
+    expect(workers).toHaveLength(2);
   });
 
   it('says so when the worker cannot even start, and tries again at the next call', async () => {

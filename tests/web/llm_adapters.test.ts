@@ -120,6 +120,30 @@ describe.each(protocols)('%s', (protocol) => {
     expect(error.value).toMatchObject({ stage: 'llm', place: expect.stringMatching(/^127\.0\.0\.1:/) });
   });
 
+  const key = 'sk-proj-A1b2C3d4E5f6G7h8';
+  const escaped = [...key].map((c) => `\\u${c.charCodeAt(0).toString(16).padStart(4, '0')}`).join('');
+  it.each([
+    ['whole', key],
+    ['cut', `${key.slice(0, 17)}...`],
+    ['in upper case', key.toUpperCase()],
+    ['just before what is quoted ends', `${'y '.repeat(78)}${key}`],
+  ])('never shows a key that a refusal echoes %s', async (_, echo) => {
+    providers.behave(() => refused(401, `Incorrect API key provided: ${echo} and more`));
+    const error = await send(target(protocol, { key })).catch((reason: unknown) => reason as AskError);
+    expect(error).toBeInstanceOf(AskError);
+    expect(String((error as AskError).message).toLowerCase()).not.toContain(key.slice(0, 12).toLowerCase());
+    expect((error as AskError).message).toContain('[key]');
+  });
+
+  it('never shows a key that stands in escapes, in a page, or in what a model says', async () => {
+    const raw: Behaviour = { kind: 'raw', body: `{"error":{"message":"bad ${escaped}"}}` };
+    providers.behave(() => raw);
+    const said = await send(target(protocol, { key })).catch((reason: unknown) => String(reason));
+    expect(said).toMatch(/bad \[key\]/);
+    providers.behave(() => ({ kind: 'reply', text: `Your key is ${key}.` }));
+    expect((await send(target(protocol, { key }))).text).toBe('Your key is [key].');
+  });
+
   it('cuts what a hostile provider says, and takes its control characters out', async () => {
     const error = await failure(
       protocol,

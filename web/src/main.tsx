@@ -3,6 +3,7 @@ import { start } from './session/core';
 import { say } from './session/session';
 import { App } from './ui/App';
 import { exposeForDebugging } from './ui/debug';
+import { isEmbedded, isInForeignFrame } from './ui/frame';
 import { detectSupport, missingSupport } from './ui/support';
 
 const root = document.getElementById('app');
@@ -15,15 +16,33 @@ addEventListener('vite:preloadError', (event) => {
   say('A part of the page is no longer there: it was updated meanwhile. Reload the page; your work is kept.', 'error');
 });
 const missing = missingSupport(detectSupport());
-if (missing === null) void start();
-render(
-  missing === null ? (
-    <App />
-  ) : (
+if (isInForeignFrame() && !isEmbedded) {
+  render(<Framed />, root);
+} else if (missing !== null) {
+  render(
     <main class="notice">
       <h1>ParSEL</h1>
       <p>{missing}</p>
+    </main>,
+    root,
+  );
+} else {
+  void start();
+  render(<App />, root);
+}
+
+/** Inside another site's page, what is clicked may not be what is seen: nothing starts there. */
+function Framed() {
+  return (
+    <main class="notice">
+      <h1>ParSEL</h1>
+      <p>
+        ParSEL does not run inside another site's page, for your safety.{' '}
+        <a href={location.href} target="_blank" rel="noopener">
+          Open it by itself
+        </a>
+        .
+      </p>
     </main>
-  ),
-  root,
-);
+  );
+}

@@ -1,10 +1,12 @@
 // One completion over fetch: time limit, retries with growing pauses, and every failure as an AskError.
+import { parseJson } from '../program/json';
 import { type Adapter, type Call, type Reply, type Target, unreadable } from './adapter';
 import { anthropic } from './anthropic';
 import { AskError, refusal } from './ask_error';
 import { gemini } from './gemini';
 import { openai } from './openai';
 import type { Protocol } from './providers';
+import { redactedJson, redactorOf } from './redact';
 
 const adapters: Record<Protocol, Adapter> = { openai, anthropic, gemini };
 
@@ -81,8 +83,9 @@ async function exchange(url: string, request: RequestInit, target: Target, optio
       referrerPolicy: 'no-referrer',
       cache: 'no-store',
     });
-    const text = await readText(response, host);
-    const json = parsed(text);
+    const redact = redactorOf(target.key);
+    const text = redact(await readText(response, host));
+    const json = redactedJson(parsed(text), redact); // a key may have been spelt in escapes
     if (!response.ok) throw refusal(response.status, wordsOf(json) || text, host, retryAfter(response.headers));
     // OpenRouter reports failures of those behind it under a 200.
     const inner = errorOf(json);
@@ -142,11 +145,8 @@ async function readText(response: Response, host: string): Promise<string> {
 }
 
 function parsed(text: string): unknown {
-  try {
-    return JSON.parse(text);
-  } catch {
-    return undefined;
-  }
+  const json = parseJson(text);
+  return json.ok ? json.value : undefined;
 }
 
 function errorOf(json: unknown): Record<string, unknown> | null {

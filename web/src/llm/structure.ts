@@ -1,6 +1,8 @@
 // Structured output that still thinks first: the reply is one object of the thoughts and then the answer, which is turned
 // back into what a reply without it looks like, thoughts and one fenced block.
 
+import { parseJson } from '../program/json';
+
 const instruction =
   '\n\nGive the whole reply as one JSON object {"thinking": …, "answer": …}: your thoughts as a text, and then the object' +
   ' that would stand in the fenced block.';
@@ -24,13 +26,9 @@ export function structuredSchema(schema: object): object {
 /** A reply as it came, or the one that a structured reply stands for. */
 export function plainReply(text: string): string {
   if (!text.trimStart().startsWith('{')) return text;
-  let reply: unknown;
-  try {
-    reply = JSON.parse(text);
-  } catch {
-    return text; // the core says what is wrong with it
-  }
-  const { thinking, answer } = reply as { thinking?: unknown; answer?: unknown };
+  const reply = parseJson(text);
+  if (!reply.ok) return text; // the core says what is wrong with it
+  const { thinking, answer } = reply.value as { thinking?: unknown; answer?: unknown };
   if (answer === undefined) return text;
   // A fence in the thoughts would be taken for the answer.
   const thoughts = typeof thinking === 'string' ? thinking.replaceAll('```', "'''") : '';

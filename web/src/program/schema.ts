@@ -4,6 +4,7 @@ import { isParameterName } from './parse';
 import {
   anchors,
   type DirectionReference,
+  type Layer,
   type LocalTriple,
   type PointReference,
   type Program,
@@ -99,7 +100,8 @@ const report = v.strictObject({
   proof: v.picklist(['certified', 'sampled']),
 });
 
-const layer = v.strictObject({
+/** One layer, such as is read alone where the others are damaged. */
+export const layerSchema: v.GenericSchema<unknown, Layer> = v.strictObject({
   request: v.pipe(text, v.maxBytes(limits.requestLength)),
   parameter,
   statements: v.pipe(v.array(statement), v.maxLength(limits.statements)),
@@ -114,5 +116,5 @@ export const programSchema: v.GenericSchema<unknown, Program> = v.strictObject({
     name: v.pipe(text, v.maxBytes(limits.nameLength)),
     sha256: v.pipe(v.string(), v.regex(/^[0-9a-f]{0,64}$/)),
   }),
-  layers: v.pipe(v.array(layer), v.maxLength(limits.layers)),
+  layers: v.pipe(v.array(layerSchema), v.maxLength(limits.layers)),
 });

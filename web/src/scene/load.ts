@@ -35,10 +35,37 @@ export async function loadModel(files: ModelFiles): Promise<LoadedModel> {
   try {
     const bytes = files.main;
     const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
-    return collect(await new GLTFLoader(manager).parseAsync(buffer, ''));
+    const gltf = await new GLTFLoader(manager).parseAsync(buffer, '');
+    disarm(gltf.scene);
+    return collect(gltf);
   } finally {
     for (const url of urls.values()) URL.revokeObjectURL(url);
   }
+}
+
+/** Sets of texture coordinates that three has attributes for: uv, uv1, uv2, uv3. */
+const textureChannels = 4;
+
+/**
+ * Takes away what three would write into the source of shaders: names of materials, which may hold line breaks and
+ * comments, and channels of textures, which may be anything. Nothing here is found by name.
+ */
+function disarm(scene: three.Object3D): void {
+  scene.traverse((object) => {
+    object.name = '';
+    if (!('material' in object)) return;
+    const { geometry, material } = object as three.Mesh;
+    geometry.name = '';
+    for (const one of [material].flat()) {
+      one.name = '';
+      for (const value of Object.values(one)) {
+        if (!(value instanceof three.Texture)) continue;
+        value.name = '';
+        const { channel } = value;
+        if (!Number.isInteger(channel) || channel < 0 || channel >= textureChannels) value.channel = 0;
+      }
+    }
+  });
 }
 
 function collect(gltf: GLTF): LoadedModel {

@@ -1,190 +1,161 @@
-// Keeps the work of every tab in IndexedDB, so that a reload or a crash loses nothing, and tabs do not write over each
-// other: a record for each tab, and the models that they name. A new tab begins with the work that was saved last.
-import { effect } from '@preact/signals';
-import { createStore, get, promisifyRequest, setMany, type UseStore } from 'idb-keyval';
+// Keeps the work of every tab, so that a reload or a crash loses nothing, and tabs do not write over each other. A new tab
+// begins with the work that was saved last. Where the browser refuses, the page works on and says so.
+import { effect, type ReadonlySignal, signal } from '@preact/signals';
 import type { ModelFiles } from '../scene/load';
-import { readSaved, type Saved, save } from '../share/saved';
-import type { ModelSource } from './document';
+import { readSaved, save, type Work } from '../share/saved';
+import type { Document } from './document';
 import { document } from './session';
+import { leaveBehind, openTabs, type Tab, takeLeft, thisTab } from './tab_name';
+import { browserStore, modelKey, type StoredModel, type TabRecord, type WorkStore } from './work_store';
 
-const delay = 400; // milliseconds
-/** Records of closed tabs that are kept. */
-const mostRecords = 4;
-
-interface StoredModel {
-  readonly files: ModelFiles;
-  readonly source: ModelSource;
-}
+/** Milliseconds of rest after a change before it is written. */
+const delay = 400;
+const day = 24 * 60 * 60 * 1000; // milliseconds
+/**
+ * Closed tabs that are kept, and for how long. Fewer or shorter, and tabs that a browser restores late, one by one as they
+ * are looked at, find their work gone; more, and models fill the disk that nobody comes back to.
+ */
+const mostRecords = 24;
+const keptFor = 30 * day;
+/** Where the disk is full, only of the last day. */
+const keptWhenFull = day;
 
 export interface Restored extends StoredModel {
-  readonly saved: Saved;
+  readonly work: Work;
 }
 
-/** What a tab was at. */
-interface TabRecord {
-  /** Date.now() when it was saved. */
-  readonly at: number;
-  readonly work: unknown;
-}
-
-let store: UseStore | null = null;
-const opened = () => {
-  store ??= createStore('parsel', 'work');
-  return store;
-};
-
-const tabPrefix = 'tab ';
-/** By name as well: the same file may be open under two. */
-const modelKey = ({ sha256, name }: Saved['model']) => `model ${sha256} ${name}`;
-
-// ------------------------------------------------------------------------------------------------------- this tab
-
-/** In sessionStorage, which lives as long as the tab: its name, and what pagehide had no time to store. */
-const nameKey = 'parsel.tab';
-const unsavedKey = 'parsel.unsaved';
-
-/** Milliseconds for the page before a reload to let its lock go. */
-const lockPatience = 400;
-
-/** Whether no living tab has this name; from then on this one has. A duplicated tab comes with the name of the other. */
-async function claim(name: string): Promise<boolean> {
-  if (!('locks' in navigator)) return true;
-  return new Promise((resolve) => {
-    const options = { signal: AbortSignal.timeout(lockPatience) };
-    const held = () => {
-      resolve(true);
-      return new Promise<never>(() => {}); // until the tab closes
-    };
-    navigator.locks.request(`parsel ${name}`, options, held).catch(() => resolve(false));
-  });
-}
-
-let tab: Promise<{ readonly name: string; readonly isNew: boolean }> | null = null;
-
-function thisTab() {
-  tab ??= (async () => {
-    const before = sessionStorage.getItem(nameKey);
-    if (before !== null && (await claim(before))) return { name: before, isNew: false };
-    const name = `${tabPrefix}${Date.now().toString(36)} ${Math.random().toString(36).slice(2)}`;
-    await claim(name);
-    sessionStorage.setItem(nameKey, name);
-    sessionStorage.removeItem(unsavedKey);
-    return { name, isNew: true };
-  })();
-  return tab;
-}
-
-// -------------------------------------------------------------------------------------------------------- reading
-
-function unsavedRecord(): TabRecord | undefined {
-  const text = sessionStorage.getItem(unsavedKey);
-  sessionStorage.removeItem(unsavedKey);
-  return text === null ? undefined : JSON.parse(text);
-}
-
-async function readRecord(record: TabRecord | undefined): Promise<Restored | null> {
-  if (record === undefined) return null;
-  const read = readSaved(record.work);
-  if (!read.ok) return null;
-  const model = await get<StoredModel>(modelKey(read.saved.model), opened());
-  return model === undefined ? null : { ...model, saved: read.saved };
-}
-
-/** Names and records of all tabs, the latest first. */
-async function recordsIn(objects: IDBObjectStore): Promise<[string, TabRecord][]> {
-  const tabs = IDBKeyRange.bound(tabPrefix, `${tabPrefix}\uffff`); // models are large, and stay where they are
-  const [names, records] = await Promise.all([
-    promisifyRequest(objects.getAllKeys(tabs) as IDBRequest<string[]>),
-    promisifyRequest(objects.getAll(tabs) as IDBRequest<TabRecord[]>),
-  ]);
-  return names
-    .flatMap((name, i): [string, TabRecord][] => (records[i] === undefined ? [] : [[name, records[i]]]))
-    .sort(([, a], [, b]) => b.at - a.at);
-}
-
-/** The work of this tab before it was reloaded, or else what was saved last; null when the browser kept nothing. */
-export async function restore(): Promise<Restored | null> {
-  try {
-    const { name, isNew } = await thisTab();
-    if (isNew) return await readRecord((await opened()('readonly', recordsIn))[0]?.[1]);
-    const stored = await get<TabRecord>(name, opened());
-    const unsaved = unsavedRecord();
-    const isLater = unsaved !== undefined && unsaved.at > (stored?.at ?? 0);
-    return (isLater ? await readRecord(unsaved) : null) ?? (await readRecord(stored));
-  } catch {
-    return null;
-  }
-}
-
-// -------------------------------------------------------------------------------------------------------- writing
-
-let timer: ReturnType<typeof setTimeout> | undefined;
-/** The model that is in the store, as far as this page knows. */
-let written: ModelFiles | null = null;
-
-/** Writes the work now, and its model unless it is there. False when the browser refuses, as private windows do. */
-export async function saveNow(): Promise<boolean> {
-  clearTimeout(timer);
-  timer = undefined;
-  const current = document.peek();
-  if (current.model === null) return true;
-  const { files, source } = current.model;
-  const work = save(current);
-  const record: TabRecord = { at: Date.now(), work };
-  try {
-    const { name } = await thisTab();
-    const changes: [string, unknown][] = [[name, record]];
-    if (files !== written) changes.push([modelKey(work.model), { files, source } satisfies StoredModel]);
-    await setMany(changes, opened());
-    if (files !== written) void tidy().catch(() => {});
-    written = files;
-    return true;
-  } catch {
-    return false;
-  }
-}
-
-/** Forgets tabs that are long closed, and models that no tab is at. One transaction: other tabs write meanwhile. */
-async function tidy(): Promise<void> {
-  const held = 'locks' in navigator ? ((await navigator.locks.query()).held ?? []).map((lock) => lock.name) : [];
-  await opened()('readwrite', async (objects) => {
-    const records = await recordsIn(objects);
-    const kept = records.filter(([name], i) => i < mostRecords || held.includes(`parsel ${name}`));
-    const wanted = new Set(kept.map(([name]) => name));
-    for (const [, { work }] of kept) {
-      const read = readSaved(work);
-      if (read.ok) wanted.add(modelKey(read.saved.model));
-    }
-    for (const key of await promisifyRequest(objects.getAllKeys() as IDBRequest<string[]>)) {
-      if (!wanted.has(key)) objects.delete(key);
-    }
-  });
-}
-
-/** A page that is left has no time for IndexedDB: what it had not saved yet is put where this tab's next page looks. */
-function leave(): void {
-  if (timer === undefined) return;
-  const current = document.peek();
-  if (current.model === null) return;
-  try {
-    sessionStorage.setItem(unsavedKey, JSON.stringify({ at: Date.now(), work: save(current) } satisfies TabRecord));
-  } catch {
-    // Too large: IndexedDB may still make it.
-  }
-  void saveNow();
-}
-
-/** Starts saving. Where the browser refuses, the page works on, without a net. */
-export function startAutosave(): () => void {
-  addEventListener('pagehide', leave);
-  const stop = effect(() => {
-    if (document.value.model === null) return;
-    clearTimeout(timer);
-    timer = setTimeout(() => void saveNow(), delay);
-  });
-  return () => {
-    stop();
-    removeEventListener('pagehide', leave);
-    clearTimeout(timer);
+export interface AutosaveParts {
+  readonly document: ReadonlySignal<Document>;
+  readonly store: WorkStore;
+  readonly tab: {
+    mine(): Promise<Tab>;
+    open(): Promise<ReadonlySet<string>>;
+    leaveBehind(value: unknown): void;
+    takeLeft(): unknown;
   };
+  /** Milliseconds since 1970. */
+  readonly now: () => number;
 }
+
+/** Why work is not kept: the disk is full, or the browser refuses, as some private windows do. */
+export type Unkept = 'full' | 'refused';
+
+export interface Autosave {
+  /** Null while the work is kept. */
+  readonly unkept: ReadonlySignal<Unkept | null>;
+  /** The work of this tab before it was reloaded, or else what was saved last; null when nothing was kept. */
+  restore(): Promise<Restored | null>;
+  /** Writes the work now, and its model unless it is there. False when it is not kept. */
+  saveNow(): Promise<boolean>;
+  /** Starts saving; answers how to stop. */
+  start(): () => void;
+}
+
+export function createAutosave({ document, store, tab, now }: AutosaveParts): Autosave {
+  const unkept = signal<Unkept | null>(null);
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  /** The model that is in the store, as far as this page knows. */
+  let written: ModelFiles | null = null;
+
+  async function readRecord(record: TabRecord | undefined): Promise<Restored | null> {
+    if (record === undefined) return null;
+    const read = readSaved(record.work);
+    if (!read.ok) return null;
+    const model = await store.model(modelKey(read.saved.model));
+    return model === undefined ? null : { ...model, work: read };
+  }
+
+  async function restore(): Promise<Restored | null> {
+    try {
+      const { name, isNew } = await tab.mine();
+      if (isNew) return await readRecord(await store.latest());
+      const stored = await store.tab(name);
+      const left = tab.takeLeft() as TabRecord | undefined;
+      const isLater = left !== undefined && left.at > (stored?.at ?? 0);
+      return (isLater ? await readRecord(left) : null) ?? (await readRecord(stored));
+    } catch {
+      return null; // saving will find out as well, and say so
+    }
+  }
+
+  async function write({ files, source }: StoredModel, record: TabRecord & { work: Work['saved'] }): Promise<void> {
+    const { name } = await tab.mine();
+    const model = files === written ? null : { key: modelKey(record.work.model), stored: { files, source } };
+    try {
+      await store.write(name, record, model);
+    } catch (error) {
+      if (!isFull(error)) throw error;
+      await forget(keptWhenFull);
+      await store.write(name, record, model);
+    }
+    if (model !== null) void forget(keptFor).catch(() => {});
+    written = files;
+  }
+
+  async function forget(within: number): Promise<void> {
+    const open = await tab.open();
+    const since = now() - within;
+    await store.forget((name, { at }, age) => open.has(name) || (age < mostRecords && at >= since));
+  }
+
+  async function saveNow(): Promise<boolean> {
+    clearTimeout(timer);
+    timer = undefined;
+    const current = document.peek();
+    if (current.model === null) return true;
+    try {
+      await write(current.model, { at: now(), work: save(current) });
+      unkept.value = null;
+      return true;
+    } catch (error) {
+      unkept.value = isFull(error) ? 'full' : 'refused';
+      return false;
+    }
+  }
+
+  /** A page that is left has no time for the store: what is not there yet is put where this tab's next page looks. */
+  function leave(): void {
+    if (timer === undefined) return;
+    const current = document.peek();
+    if (current.model === null) return;
+    try {
+      tab.leaveBehind({ at: now(), work: save(current) } satisfies TabRecord);
+    } catch {
+      // Too large: the store may still make it.
+    }
+    void saveNow();
+  }
+
+  /** Browsers then ask whether to leave. */
+  function warn(event: BeforeUnloadEvent): void {
+    if (unkept.peek() !== null) event.preventDefault();
+  }
+
+  function start(): () => void {
+    addEventListener('pagehide', leave);
+    addEventListener('beforeunload', warn);
+    const stop = effect(() => {
+      if (document.value.model === null) return;
+      clearTimeout(timer);
+      timer = setTimeout(() => void saveNow(), delay);
+    });
+    return () => {
+      stop();
+      removeEventListener('pagehide', leave);
+      removeEventListener('beforeunload', warn);
+      clearTimeout(timer);
+    };
+  }
+
+  return { unkept, restore, saveNow, start };
+}
+
+const isFull = (error: unknown): boolean => error instanceof DOMException && error.name === 'QuotaExceededError';
+
+/** The page's own. */
+export const autosave: Autosave = createAutosave({
+  document,
+  store: browserStore(),
+  tab: { mine: thisTab, open: openTabs, leaveBehind, takeLeft },
+  now: Date.now,
+});

@@ -3,7 +3,6 @@ import { computed, signal } from '@preact/signals';
 import wasmUrl from 'parsel-module/parsel.wasm?url';
 import { type CoreClient, startCore } from '../worker/client';
 import { type ModelCore, modelCore } from './model_core';
-import { say } from './session';
 
 export type CoreState =
   | { kind: 'starting' }
@@ -14,12 +13,8 @@ export const core = signal<CoreState>({ kind: 'starting' });
 
 const client = computed(() => (core.value.kind === 'ready' ? core.value.client : null));
 
-const onLost = () => say('The core stopped and lost the model. It reads it again at the next edit; your work is kept.');
-
 /** What the session asks; null until the core is ready. */
-export const models = computed<ModelCore | null>(() =>
-  client.value === null ? null : modelCore(client.value, onLost),
-);
+export const models = computed<ModelCore | null>(() => (client.value === null ? null : modelCore(client.value)));
 
 /** Starts the core, or says in a sentence why it does not run. */
 export async function start(): Promise<void> {

@@ -2,6 +2,7 @@
 import type { ModelFiles } from '../scene/load';
 import type { DecompressReply } from '../worker/decompress.worker';
 import type { Progress } from '../worker/protocol';
+import { watched } from '../worker/watch';
 import { FileError, fileLimits, gltfJson } from './files';
 
 /** What a file is compressed with, by the names that people know. */
@@ -37,14 +38,14 @@ export async function decompressed(
 }
 
 async function ask(files: ModelFiles, signal: AbortSignal): Promise<DecompressReply> {
-  const worker = new Worker(new URL('../worker/decompress.worker.ts', import.meta.url), {
-    type: 'module',
-    name: 'parsel-decompress',
-  });
+  const worker = watched(
+    (name) => new Worker(new URL('../worker/decompress.worker.ts', import.meta.url), { type: 'module', name }),
+  );
   try {
     return await new Promise((resolve, reject) => {
       worker.onmessage = ({ data }: MessageEvent<DecompressReply>) => resolve(data);
       worker.onerror = ({ message }) => resolve({ error: message || 'the decoder did not start' });
+      worker.ondeath = () => resolve({ error: 'the browser ended the decoder: it may want too much memory' });
       signal.addEventListener('abort', () => reject(signal.reason), { once: true });
       worker.postMessage(files);
     });

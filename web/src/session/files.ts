@@ -1,4 +1,5 @@
 // From what a person drops, picks or points at to one model: a .glb, a .gltf with its files, a folder, a zip.
+import { jsonLimits, parseJson } from '../program/json';
 import type { ModelFiles } from '../scene/load';
 
 /** Running limits on what is read, against archives that are bombs. */
@@ -14,6 +15,8 @@ const extension = (path: string) => /\.([^./]+)$/.exec(path)?.[1]?.toLowerCase()
 const baseName = (path: string) => path.slice(path.lastIndexOf('/') + 1);
 const isZip = (bytes: Uint8Array) => bytes[0] === 0x50 && bytes[1] === 0x4b && bytes[2] === 3 && bytes[3] === 4;
 
+const tooMany = () => new FileError('That is more than 10,000 files. Open the model alone.');
+
 class Budget {
   #bytes = 0;
   #entries = 0;
@@ -24,20 +27,22 @@ class Budget {
   take(bytes: number): void {
     this.takeBytes(bytes);
     this.#entries++;
-    if (this.#entries > fileLimits.entries)
-      throw new FileError('That is more than 10,000 files. Open the model alone.');
+    if (this.#entries > fileLimits.entries) throw tooMany();
   }
 }
 
-/** Files of an <input>, with the folder's paths where there are any. */
-export async function readPicked(files: Iterable<File>): Promise<FileSet> {
+/** Reads files that have been found, all or none: what is too large is refused before anything of it is read. */
+async function readAll(files: readonly (readonly [path: string, file: File])[]): Promise<FileSet> {
   const budget = new Budget();
-  const found = new Map<string, Uint8Array>();
-  for (const file of files) {
-    budget.take(file.size);
-    found.set(file.webkitRelativePath || file.name, new Uint8Array(await file.arrayBuffer()));
-  }
-  return found;
+  for (const [, { size }] of files) budget.take(size);
+  const read = new Map<string, Uint8Array>();
+  for (const [path, file] of files) read.set(path, new Uint8Array(await file.arrayBuffer()));
+  return read;
+}
+
+/** Files of an <input>, with the folder's paths where there are any. */
+export function readPicked(files: Iterable<File>): Promise<FileSet> {
+  return readAll([...files].map((file) => [file.webkitRelativePath || file.name, file] as const));
 }
 
 /** Everything that was dropped, folders walked. Call it in the handler itself: the items are gone afterwards. */
@@ -48,13 +53,12 @@ export function readDropped(transfer: DataTransfer): Promise<FileSet> {
 }
 
 async function walk(roots: readonly FileSystemEntry[]): Promise<FileSet> {
-  const budget = new Budget();
-  const found = new Map<string, Uint8Array>();
+  const found: (readonly [path: string, file: File])[] = [];
   const visit = async (entry: FileSystemEntry): Promise<void> => {
     if (entry.isFile) {
       const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
-      budget.take(file.size);
-      found.set(entry.fullPath.slice(1), new Uint8Array(await file.arrayBuffer()));
+      found.push([entry.fullPath.slice(1), file]);
+      if (found.length > fileLimits.entries) throw tooMany();
     } else {
       const reader = (entry as FileSystemDirectoryEntry).createReader();
       for (;;) {
@@ -65,7 +69,13 @@ async function walk(roots: readonly FileSystemEntry[]): Promise<FileSet> {
     }
   };
   for (const root of roots) await visit(root);
-  return found;
+  return readAll(found);
+}
+
+/** What is in a zip, when that is all there is. */
+export async function unpacked(files: FileSet): Promise<FileSet> {
+  const [only] = files.values();
+  return files.size === 1 && only !== undefined && isZip(only) ? unpack(only) : files;
 }
 
 async function unpack(bytes: Uint8Array): Promise<FileSet> {
@@ -88,16 +98,22 @@ async function unpack(bytes: Uint8Array): Promise<FileSet> {
   });
 }
 
+const isSession = (path: string) => path.endsWith('.parsel.json');
+
 /** A session file among what was opened, or null. */
-export function sessionText(files: FileSet): string | null {
-  for (const [path, bytes] of files) if (path.endsWith('.parsel.json')) return new TextDecoder().decode(bytes);
+export function sessionOf(files: FileSet): Uint8Array | null {
+  for (const [path, bytes] of files) if (isSession(path)) return bytes;
   return null;
 }
 
+/** Whether there is something to open beside a session file. */
+export function hasModel(files: FileSet): boolean {
+  return [...files].some(([path, bytes]) => ['glb', 'gltf'].includes(extension(path)) || isZip(bytes));
+}
+
 /** Rejects with a FileError that says what to open instead. */
-export async function modelOf(files: FileSet): Promise<ModelFiles> {
-  const [only] = files.values();
-  if (files.size === 1 && only !== undefined && isZip(only)) return modelOf(await unpack(only));
+export async function modelOf(picked: FileSet): Promise<ModelFiles> {
+  const files = await unpacked(picked);
   const candidates = [...files.keys()]
     .filter((path) => ['glb', 'gltf'].includes(extension(path)))
     .sort((a, b) => a.split('/').length - b.split('/').length || a.localeCompare(b));
@@ -122,7 +138,8 @@ export function gltfJson(bytes: Uint8Array): Record<string, unknown> | null {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const binary = bytes.length >= 20 && view.getUint32(0, true) === 0x46546c67;
     const text = new TextDecoder().decode(binary ? bytes.subarray(20, 20 + view.getUint32(12, true)) : bytes);
-    const json: unknown = JSON.parse(text);
+    const read = parseJson(text, { ...jsonLimits, length: Number.POSITIVE_INFINITY }); // the file has a limit
+    const json = read.ok ? read.value : null;
     return typeof json === 'object' && json !== null && !Array.isArray(json) ? (json as Record<string, unknown>) : null;
   } catch {
     return null;
@@ -136,7 +153,7 @@ const unsupported: ReadonlyMap<string, string> = new Map([
 
 function refuseUnreadable(name: string, bytes: Uint8Array): void {
   const json = gltfJson(bytes);
-  if (json === null) throw new FileError(`${name} is damaged: it does not begin as glTF does. Export it again.`);
+  if (json === null) throw new FileError(`${name} is damaged: its glTF header cannot be read. Export it again.`);
   const required = Array.isArray(json['extensionsRequired']) ? json['extensionsRequired'] : [];
   for (const extensionName of required) {
     const reason = unsupported.get(String(extensionName));
@@ -174,14 +191,15 @@ function safeDecode(uri: string): string {
   }
 }
 
+/** An address in full, or null when it is none. */
+export const addressOf = (address: string): string | null =>
+  URL.canParse(address, location.href) ? new URL(address, location.href).href : null;
+
 /** Fetches a model. The page's policy lets it ask its own site and this machine, nobody else. */
 export async function readUrl(address: string, signal: AbortSignal): Promise<FileSet> {
-  let url: URL;
-  try {
-    url = new URL(address, location.href);
-  } catch {
-    throw new FileError('That is no address. It should read like https://…/model.glb.');
-  }
+  const full = addressOf(address);
+  if (full === null) throw new FileError('That is no address. It should read like https://…/model.glb.');
+  const url = new URL(full);
   const local = url.hostname === 'localhost' || url.hostname === '127.0.0.1';
   if (url.origin !== location.origin && !local) {
     throw new FileError(

@@ -1,8 +1,8 @@
-// What the session asks of the core, and the core that answers. The core keeps one model; when it holds another than the
-// one that is asked about (after undo, say), it opens that one first.
+// What the session asks of the core, and the core that answers. The core keeps one model; whichever a call is about (after
+// undo, say, or in a new worker) is its state.
 import type { Program, Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
-import type { CallOptions, CoreClient } from '../worker/client';
+import type { CallOptions, CoreClient, CoreState } from '../worker/client';
 import type { Inference, MethodResult, Replies } from '../worker/protocol';
 import { type EditInput, type Labels, noLabels, type OpenModel } from './document';
 import type { Trace } from './trace';
@@ -41,51 +41,48 @@ export interface ModelCore {
   readReplies(model: OpenModel, request: string, replies: Replies[]): Promise<Inference>;
 }
 
-/** @param onLost the core has lost its model, which is opened again when it is next asked about */
-export function modelCore(client: CoreClient, onLost: () => void): ModelCore {
-  let opened: Pick<OpenModel, 'files' | 'labels'> | null = null;
-  client.onStateLost = () => {
-    opened = null;
-    onLost();
-  };
-  const open = async (files: ModelFiles, options: Options, labels = noLabels): Promise<Shape> => {
-    const external = [...files.external.keys()];
-    const buffers = [files.main, ...files.external.values()];
-    const { result } = await client.call(
-      'open',
-      { name: files.name, external, ...(labels.size > 0 ? { labels: Object.fromEntries(labels) } : {}) },
-      { ...options, buffers, state: 'model' },
-    );
-    opened = { files, labels };
-    return result.shape as unknown as Shape;
-  };
-  const hold = async ({ files, labels }: OpenModel, options: Options) => {
-    if (opened?.files !== files || opened.labels !== labels) await open(files, options, labels);
+/** The model that calls are about is told to the core with each of them; the client sees to it that it is only told anew. */
+export function modelCore(client: CoreClient): ModelCore {
+  const states = new WeakMap<ModelFiles, Map<Labels, CoreState<'open'>>>();
+  const stateOf = ({ files, labels }: Pick<OpenModel, 'files' | 'labels'>): CoreState<'open'> => {
+    const known = states.get(files) ?? new Map<Labels, CoreState<'open'>>();
+    states.set(files, known);
+    const state: CoreState<'open'> = known.get(labels) ?? {
+      method: 'open',
+      parameters: {
+        name: files.name,
+        external: [...files.external.keys()],
+        ...(labels.size > 0 ? { labels: Object.fromEntries(labels) } : {}),
+      },
+      buffers: [files.main, ...files.external.values()],
+    };
+    known.set(labels, state);
+    return state;
   };
   return {
-    open,
+    async open(files, options, labels = noLabels) {
+      const { result } = await client.setUp(stateOf({ files, labels }), options);
+      return result.shape as unknown as Shape;
+    },
     async propagate(model, edit, options) {
-      await hold(model, options);
-      const { result } = await client.call('propagate', { edit }, options);
+      const { result } = await client.call('propagate', { edit }, { ...options, needs: stateOf(model) });
       return result as Propagation;
     },
     async prompts(model, request, mentioned) {
-      await hold(model, {});
-      return (await client.call('prompts', { request, mentioned: [...mentioned] })).result;
+      const needs = stateOf(model);
+      return (await client.call('prompts', { request, mentioned: [...mentioned] }, { needs })).result;
     },
     async readReplies(model, request, replies) {
-      await hold(model, {});
-      return (await client.call('read_replies', { request, replies })).result;
+      return (await client.call('read_replies', { request, replies }, { needs: stateOf(model) })).result;
     },
     async apply(model, program, { animate, only }) {
-      await hold(model, {});
       const parameters = {
         program,
         values: program.layers.map(({ parameter }) => parameter.value),
         ...(animate === undefined ? {} : { animate }),
         ...(only === undefined ? {} : { only: [...only] }),
       };
-      const { result, buffers } = await client.call('apply', parameters);
+      const { result, buffers } = await client.call('apply', parameters, { needs: stateOf(model) });
       const [glb] = buffers;
       if (glb === undefined) throw new Error('The core gave no file.');
       return { glb, warnings: result.warnings.map(({ place, text }) => [place, text].filter(Boolean).join(': ')) };

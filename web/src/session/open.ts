@@ -1,7 +1,7 @@
 // Opening: a model by any route, and saved work on one. The work at hand stays until the new one is ready.
-import { signal } from '@preact/signals';
+import { computed, signal } from '@preact/signals';
 import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
-import type { Saved } from '../share/saved';
+import { lostWords, type Saved, type Work } from '../share/saved';
 import { decompressed } from './decompress';
 import {
   type Document,
@@ -12,11 +12,12 @@ import {
   noLabels,
   type OpenModel,
 } from './document';
-import { type FileSet, modelOf, readUrl } from './files';
+import { misfit } from './evaluation';
+import { addressOf, type FileSet, modelOf, readUrl } from './files';
 import { galleryUrl } from './gallery';
 import type { ModelCore } from './model_core';
 import { carryOver } from './relabel';
-import { document, misfit, newEntry, replaceDocument, run, say } from './session';
+import { document, newEntry, replaceDocument, run, say } from './session';
 
 /** Meshes that have been read for a model that is about to be shown; the stage takes them. */
 const prepared = new WeakMap<ModelFiles, LoadedModel>();
@@ -28,8 +29,14 @@ export async function takeLoaded(files: ModelFiles): Promise<LoadedModel> {
   return ready ?? (await loadModel(files));
 }
 
-/** Work that waits for its model to be supplied: what a link names by file name and hash only. */
-export const awaited = signal<Saved | null>(null);
+/** Work that waits for its model: for its file, or for leave to fetch it from the address that it names. */
+export const awaited = signal<Work | null>(null);
+
+/** Where the work that waits would fetch its model from, in full; null when it names no address. */
+export const awaitedAddress = computed(() => {
+  const url = awaited.value?.saved.model.url;
+  return url === undefined ? null : addressOf(url);
+});
 
 /** Camera of the work that was opened last, for the stage to take over. */
 export const openedView = signal<Saved['view'] | null>(null);
@@ -49,11 +56,11 @@ async function abstract(
   });
 }
 
-function show(model: OpenModel, saved: Saved | null): boolean {
-  const next = saved === null ? { ...emptyDocument, model } : documentOf(model, saved);
-  openedView.value = saved?.view ?? null;
+function show(model: OpenModel, work: Work | null): boolean {
+  const next = work === null ? { ...emptyDocument, model } : documentOf(model, work.saved);
+  openedView.value = work?.saved.view ?? null;
   replaceDocument(next, `open ${model.shape.name}`);
-  const remarks = remarksOn(model);
+  const remarks = [remarksOn(model), work === null ? '' : lostWords(work)].filter(Boolean).join(' ');
   if (remarks !== '') say(remarks);
   return true;
 }
@@ -90,41 +97,50 @@ async function openFrom(
   core: ModelCore,
   get: (signal: AbortSignal) => Promise<ModelFiles>,
   source: ModelSource,
-  saved: Saved | null,
+  work: Work | null,
 ): Promise<boolean> {
+  const saved = work?.saved ?? null;
   const model = await abstract(core, get, source, saved?.labels === undefined ? noLabels : new Map(saved.labels));
   if (model === null) return false;
   if (saved !== null && saved.model.sha256 !== model.shape.sha256) {
     say(`${model.shape.name} is not the file that this work was made on (${saved.model.name}).`, 'error');
     return false;
   }
-  return show(model, saved);
+  return show(model, work);
 }
 
 /** Files of a drop or a picker. When work waits for its model, this is taken for it. */
 export async function openFiles(core: ModelCore, files: FileSet): Promise<boolean> {
-  const saved = awaited.peek();
-  const done = await openFrom(core, () => modelOf(files), { kind: 'file' }, saved);
+  const done = await openFrom(core, () => modelOf(files), { kind: 'file' }, awaited.peek());
   if (done) awaited.value = null;
   return done;
 }
 
-export function openGallery(core: ModelCore, id: string, saved: Saved | null = null): Promise<boolean> {
+export function openGallery(core: ModelCore, id: string, work: Work | null = null): Promise<boolean> {
   return openFrom(
     core,
     async (signal) => modelOf(await readUrl(galleryUrl(id), signal)),
     { kind: 'gallery', id },
-    saved,
+    work,
   );
 }
 
-export function openUrl(core: ModelCore, url: string, saved: Saved | null = null): Promise<boolean> {
-  return openFrom(core, async (signal) => modelOf(await readUrl(url, signal)), { kind: 'url', url }, saved);
+/** Sends a GET to the address: only where a person has typed it or has said so. */
+export function openUrl(core: ModelCore, url: string, work: Work | null = null): Promise<boolean> {
+  return openFrom(core, async (signal) => modelOf(await readUrl(url, signal)), { kind: 'url', url }, work);
+}
+
+/** Fetches the model of the work that waits. */
+export async function fetchAwaited(core: ModelCore): Promise<void> {
+  const work = awaited.peek();
+  const url = awaitedAddress.peek();
+  if (work === null || url === null) return;
+  if (await openUrl(core, url, work)) awaited.value = null;
 }
 
 /** Files that the browser kept. */
-export function reopen(core: ModelCore, files: ModelFiles, source: ModelSource, saved: Saved): Promise<boolean> {
-  return openFrom(core, async () => files, source, saved);
+export function reopen(core: ModelCore, files: ModelFiles, source: ModelSource, work: Work): Promise<boolean> {
+  return openFrom(core, async () => files, source, work);
 }
 
 /** Gives a part another label (null: the file's own): the shape is abstracted anew, and the work carried over to it. */
@@ -150,15 +166,19 @@ export async function relabel(core: ModelCore, keys: readonly string[], label: s
   return true;
 }
 
-/** Saved work from a link or a file: opens its model, or asks for it. */
-export async function openSaved(core: ModelCore, saved: Saved): Promise<boolean> {
-  const { gallery, url, sha256 } = saved.model;
+/**
+ * Saved work from a link or a file: opens its model, or asks for it. An address that it names is not fetched: it would be
+ * a stranger's request, with this machine's own services within reach.
+ * @param files what was opened together with it: its model
+ */
+export async function openSaved(core: ModelCore, work: Work, files: FileSet | null = null): Promise<boolean> {
+  const { saved } = work;
+  const { gallery, sha256 } = saved.model;
+  if (files !== null) return openFrom(core, () => modelOf(files), { kind: 'file' }, work);
   const { model } = document.peek();
-  if (model?.shape.sha256 === sha256 && saved.labels === undefined && model.labels.size === 0)
-    return show(model, saved);
-  if (model?.shape.sha256 === sha256) return reopen(core, model.files, model.source, saved);
-  if (gallery !== undefined) return openGallery(core, gallery, saved);
-  if (url !== undefined) return openUrl(core, url, saved);
-  awaited.value = saved;
+  if (model?.shape.sha256 === sha256 && saved.labels === undefined && model.labels.size === 0) return show(model, work);
+  if (model?.shape.sha256 === sha256) return reopen(core, model.files, model.source, work);
+  if (gallery !== undefined) return openGallery(core, gallery, work);
+  awaited.value = work;
   return false;
 }

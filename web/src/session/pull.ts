@@ -5,23 +5,12 @@ import { signal } from '@preact/signals';
 import { statementText } from '../program/text';
 import type { Axis, LocalTriple, ReflectionRelation, Shape, ShapePart, Statement, Vec3 } from '../program/types';
 import { withRequest } from './document';
+import { activeLayers } from './evaluation';
 import { axes, type Measure, measureOf, pointIn } from './measure';
 import type { ModelCore } from './model_core';
 import { readLayer } from './reading';
-import {
-  activeLayers,
-  compiled,
-  document,
-  draft,
-  entriesOf,
-  entryOf,
-  keepDraft,
-  say,
-  sentence,
-  settle,
-  slide,
-  sliderValue,
-} from './session';
+import { compiled, document, draft, entriesOf, entryOf, keepDraft, say, settle, slide, sliderValue } from './session';
+import { sentence } from './tasks';
 
 /** A feature of a part that a hand holds; the whole part is moved, a face stretches it. */
 export interface Grab {

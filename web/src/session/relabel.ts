@@ -1,7 +1,7 @@
 // The work on a model whose shape was abstracted anew: the parts are the same, their ids and the relations may be others.
 import type { DirectionReference, Layer, PointReference, Shape, Statement } from '../program/types';
 import { type Document, type LayerEntry, type OpenModel, partKey } from './document';
-import { misfit } from './session';
+import { misfit } from './evaluation';
 
 /** The document on another shape of the same file. What has no counterpart keeps its id, so that nothing is lost. */
 export function carryOver(document: Document, model: OpenModel): Document {

@@ -4,6 +4,8 @@ import { type ReadResult, readSavedText, type Saved } from './saved';
 /** Longer links break in mail and chat programs. */
 export const linkWarningLength = 8192;
 const maxInflated = 2 ** 20;
+/** Deflate stores what it cannot shorten with less than 1 % on top, and base64 makes four characters of three bytes. */
+const maxLength = Math.ceil((maxInflated * 1.01 * 4) / 3);
 const prefix = 'v1.';
 
 export async function fragmentOf(saved: Saved): Promise<string> {
@@ -14,16 +16,20 @@ export async function fragmentOf(saved: Saved): Promise<string> {
   return `#${prefix}${btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '')}`;
 }
 
+const refused = (text: string): ReadResult => ({ ok: false, text });
+
 /** Reads an untrusted fragment; null when it is none of ours. */
 export async function readFragment(fragment: string): Promise<ReadResult | null> {
-  const text = fragment.replace(/^#/, '');
-  const version = /^v(\d+)\./.exec(text);
+  const version = /^#?v(\d{1,9})\./.exec(fragment);
   if (version === null) return null;
-  if (!text.startsWith(prefix)) {
-    return { ok: false, text: 'This link was made by a newer ParSEL. Reload the page to update it, then try again.' };
+  if (version[1] !== '1') {
+    return refused('This link was made by a newer ParSEL. Reload the page to update it, then try again.');
   }
-  const inflated = await inflate(text.slice(prefix.length));
-  if (inflated === null) return { ok: false, text: 'This link is damaged: part of it is missing. Ask for it again.' };
+  const coded = fragment.slice(version[0].length);
+  // Before any of it is decoded: browsers accept links of hundreds of megabytes.
+  if (coded.length > maxLength) return refused('This link is too long. Ask for the work as a file instead.');
+  const inflated = await inflate(coded);
+  if (inflated === null) return refused('This link is damaged: part of it is missing. Ask for it again.');
   return readSavedText(inflated);
 }
 

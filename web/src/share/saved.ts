@@ -1,7 +1,8 @@
 // `parsel/session` v1: the work on a model without the model, for files and links. Untrusted when it is read.
 import * as v from 'valibot';
 import { shortened } from '../program/cut';
-import { limits, programSchema } from '../program/schema';
+import { jsonLimits, parseJson } from '../program/json';
+import { layerSchema, limits, programSchema } from '../program/schema';
 import type { CameraPose } from '../scene/camera';
 import type { Document } from '../session/document';
 
@@ -17,6 +18,21 @@ const modelSchema = v.strictObject({
   url: v.exactOptional(v.pipe(v.string(), v.maxLength(2048))),
 });
 
+/** A part and its name. */
+const renamed: v.GenericSchema<unknown, [string, string]> = v.strictTuple([id, id]);
+const label: v.GenericSchema<unknown, [string, string]> = v.strictTuple([
+  v.pipe(v.string(), v.regex(/^node:\d{1,9}\/\d{1,9}$/)),
+  id,
+]);
+const viewSchema: v.GenericSchema<unknown, CameraPose> = v.strictTuple([
+  finite,
+  finite,
+  finite,
+  finite,
+  finite,
+  finite,
+]);
+
 const savedSchema = v.strictObject({
   format: v.literal('parsel/session'),
   version: v.literal(1),
@@ -26,22 +42,21 @@ const savedSchema = v.strictObject({
   /** Indices of the layers that are off. */
   off: v.pipe(v.array(v.pipe(v.number(), v.integer(), v.minValue(0))), v.maxLength(limits.layers)),
   hidden: v.pipe(v.array(id), v.maxLength(limits.statements)),
-  names: v.pipe(v.array(v.strictTuple([id, id])), v.maxLength(limits.statements)),
+  names: v.pipe(v.array(renamed), v.maxLength(limits.statements)),
   /** Labels given in place of the file's own, by "node:<index>/<primitive>". */
-  labels: v.exactOptional(
-    v.pipe(
-      v.array(v.strictTuple([v.pipe(v.string(), v.regex(/^node:\d{1,9}\/\d{1,9}$/)), id])),
-      v.maxLength(limits.statements),
-    ),
-  ),
-  view: v.exactOptional(
-    v.pipe(v.strictTuple([finite, finite, finite, finite, finite, finite]) as v.GenericSchema<unknown, CameraPose>),
-  ),
+  labels: v.exactOptional(v.pipe(v.array(label), v.maxLength(limits.statements))),
+  view: v.exactOptional(viewSchema),
 });
 export type Saved = v.InferOutput<typeof savedSchema>;
 
+/** Saved work as it was read, and what of it was damaged and left out, in words. */
+export interface Work {
+  readonly saved: Saved;
+  readonly lost: readonly string[];
+}
+
 /** What was read, or a sentence on why it was refused. */
-export type ReadResult = { readonly ok: true; readonly saved: Saved } | { readonly ok: false; readonly text: string };
+export type ReadResult = ({ readonly ok: true } & Work) | { readonly ok: false; readonly text: string };
 
 export function save(document: Document, view?: CameraPose): Saved {
   const { model, layers, hidden, names } = document;
@@ -70,7 +85,7 @@ export function save(document: Document, view?: CameraPose): Saved {
   };
 }
 
-/** Reads untrusted JSON. */
+/** Reads untrusted JSON. What is damaged loses its bad elements, and nothing else. */
 export function readSaved(json: unknown): ReadResult {
   const header = v.safeParse(v.looseObject({ format: v.string(), version: v.number() }), json);
   if (!header.success || header.output.format !== 'parsel/session') {
@@ -80,15 +95,89 @@ export function readSaved(json: unknown): ReadResult {
     return { ok: false, text: 'This was saved by a newer ParSEL. Reload the page to update it, then try again.' };
   }
   const parsed = v.safeParse(savedSchema, json, { abortEarly: true });
-  if (parsed.success) return { ok: true, saved: parsed.output };
+  if (parsed.success) return { ok: true, saved: parsed.output, lost: [] };
+  const work = salvage(header.output);
+  if (work !== null) return { ok: true, ...work };
   const place = v.getDotPath(parsed.issues[0]) ?? 'the file';
   return { ok: false, text: `This session is damaged at ${shortened(place, 80)}. Ask for it again.` };
 }
 
-export function readSavedText(text: string): ReadResult {
-  try {
-    return readSaved(JSON.parse(text));
-  } catch {
-    return { ok: false, text: 'This session is damaged: it is not complete. Ask for it again.' };
-  }
+type Json = Readonly<Record<string, unknown>>;
+const objectOf = (value: unknown): Json => (typeof value === 'object' && value !== null ? (value as Json) : {});
+
+/** What is whole of a damaged session; null when it does not even say which model it is about. */
+function salvage(json: Json): Work | null {
+  const lost: string[] = [];
+  const listOf = (value: unknown, what: string): readonly unknown[] => {
+    if (value !== undefined && !Array.isArray(value)) lost.push(what);
+    return Array.isArray(value) ? value : [];
+  };
+  /** The elements that a schema accepts, each with its index. */
+  const whole = <T>(list: readonly unknown[], schema: v.GenericSchema<unknown, T>, most: number) =>
+    list.slice(0, most).flatMap((item, index) => {
+      const read = v.safeParse(schema, item);
+      return read.success ? [{ index, item: read.output }] : [];
+    });
+  const some = <T>(list: readonly unknown[], schema: v.GenericSchema<unknown, T>, what: string): T[] => {
+    const kept = whole(list, schema, limits.statements);
+    if (kept.length < list.length) lost.push(what);
+    return kept.map(({ item }) => item);
+  };
+
+  const model = v.safeParse(modelSchema, json['model']);
+  if (!model.success) return null;
+  const all = listOf(objectOf(json['program'])['layers'], 'the edits');
+  const layers = whole(all, layerSchema, limits.layers);
+  const kept = new Set(layers.map(({ index }) => index));
+  for (const [i, layer] of all.entries()) if (!kept.has(i)) lost.push(editName(i, layer));
+  const off = new Set(some(listOf(json['off'], 'which edits are off'), v.number(), 'which edits are off'));
+  const labels = json['labels'] === undefined ? [] : some(listOf(json['labels'], 'labels'), label, 'labels');
+  const view = v.safeParse(viewSchema, json['view']);
+  if (!view.success && json['view'] !== undefined) lost.push('the view');
+  const { name, sha256 } = model.output;
+  const saved: Saved = {
+    format: 'parsel/session',
+    version: 1,
+    model: model.output,
+    program: {
+      format: 'parsel/program',
+      version: 1,
+      shape: { name, sha256 },
+      layers: layers.map(({ item }) => item),
+    },
+    off: layers.flatMap(({ index }, i) => (off.has(index) ? [i] : [])),
+    hidden: some(listOf(json['hidden'], 'what is hidden'), id, 'what is hidden'),
+    names: some(listOf(json['names'], 'names'), renamed, 'names'),
+    ...(labels.length > 0 ? { labels } : {}),
+    ...(view.success ? { view: view.output } : {}),
+  };
+  return { saved, lost: [...new Set(lost)] };
 }
+
+/** "edit 2 (widen the chair)", as far as it says so. */
+function editName(index: number, layer: unknown): string {
+  const request = objectOf(layer)['request'];
+  const name = typeof request === 'string' ? shortened(request, 60).trim() : '';
+  return `edit ${index + 1}${name === '' ? '' : ` (“${name}”)`}`;
+}
+
+/** A sentence on what is missing; empty when nothing is. */
+export function lostWords({ lost }: Work): string {
+  const most = 3;
+  if (lost.length === 0) return '';
+  const others = lost.length > most ? ` and ${lost.length - most} more` : '';
+  return `Part of this work was damaged and is left out: ${lost.slice(0, most).join(', ')}${others}.`;
+}
+
+/** Reads an untrusted file, or what a link holds. */
+export function readSavedText(content: string | Uint8Array): ReadResult {
+  // A character takes up to four bytes, so that what is longer than this is too long in any case.
+  if (typeof content !== 'string' && content.length > 4 * jsonLimits.length) return damaged('it is too large');
+  const json = parseJson(typeof content === 'string' ? content : new TextDecoder().decode(content));
+  return json.ok ? readSaved(json.value) : damaged(json.error.cause);
+}
+
+const damaged = (cause: string): ReadResult => ({
+  ok: false,
+  text: `This session is damaged: ${cause}. Ask for it again.`,
+});

@@ -10,8 +10,9 @@ import { dialog, openAny } from './actions';
 import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
 import { EditsPanel } from './EditsPanel';
+import { isEmbedded } from './frame';
 import { Handles } from './Handles';
-import { HelpDialog } from './HelpDialog';
+import { HelpDialog, Licences } from './HelpDialog';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
 import { ModelDialog } from './ModelDialog';
@@ -24,7 +25,7 @@ import { StatusLine } from './StatusLine';
 import { listenForShortcuts } from './shortcuts';
 import { TopBar } from './TopBar';
 import { Tour, TourOffer } from './Tour';
-import { isEmbedded, welcome } from './welcome';
+import { welcome } from './welcome';
 import type { FeatureKind } from './words';
 
 const phone = matchMedia('(max-width: 720px)');
@@ -89,7 +90,10 @@ export function App() {
       </main>
       {!isPhone.value && (
         <footer class="foot quiet">
-          After <a href="https://arxiv.org/abs/2405.20319">ParSEL</a>, Ganeshan et al. 2024
+          <p>
+            After <a href="https://arxiv.org/abs/2405.20319">ParSEL</a>, Ganeshan et al. 2024
+          </p>
+          <Licences />
         </footer>
       )}
       <Tour />

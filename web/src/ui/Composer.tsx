@@ -16,7 +16,7 @@ import {
   requestText,
   sendRequest,
   unmention,
-} from '../session/request';
+} from '../session/requests';
 import { document, selection } from '../session/session';
 import { dialog } from './actions';
 import { Icon } from './Icon';
@@ -33,6 +33,7 @@ const heights = new ResizeObserver(([entry]) => {
 function tellHeight(element: HTMLElement | null): void {
   heights.disconnect();
   if (element !== null) heights.observe(element);
+  else globalThis.document.documentElement.style.removeProperty('--composer-height');
 }
 
 /** @param picking whether clicks in the view belong to the edit by hand */
@@ -82,6 +83,8 @@ export function Composer({ picking }: { picking: boolean }) {
             aria-label="What to change"
             onInput={(event) => {
               requestText.value = event.currentTarget.value;
+              // What was wrong with a request goes with it.
+              if (requestText.value === '' && state.kind === 'failed') dismiss();
             }}
             onKeyDown={onKeyDown}
             onFocus={() => {
@@ -138,7 +141,7 @@ function Mentions() {
     <>
       {known.map((id) => (
         <span class="mention" key={id}>
-          {nameOf(document.value, id)}
+          <span>{nameOf(document.value, id)}</span>
           <button
             type="button"
             aria-label={`Do not mention ${nameOf(document.value, id)}`}

@@ -71,7 +71,7 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
       {choice.part !== '' && <Disabled shape={shape} part={choice.part} disabled={disabled} />}
       <div class="row">
         <button type="submit" class="button primary" disabled={!ready}>
-          Propagate
+          Apply
         </button>
         <button type="button" class="button" onClick={onDone}>
           Cancel

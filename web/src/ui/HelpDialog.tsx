@@ -19,6 +19,22 @@ const keys: readonly (readonly [keys: string, what: string])[] = [
   ['Double-click on a slider', 'back to the model as it was'],
 ];
 
+/** The build puts both files beside the page. */
+export function Licences() {
+  return (
+    <p>
+      Free software, GPL 3 or later:{' '}
+      <a href="./licences.txt" target="_blank" rel="noopener">
+        licences
+      </a>
+      ,{' '}
+      <a href="./source.tar.gz" download>
+        source
+      </a>
+    </p>
+  );
+}
+
 export function HelpDialog() {
   return (
     <Dialog
@@ -41,8 +57,12 @@ export function HelpDialog() {
       </dl>
       <p class="quiet">
         After <a href="https://arxiv.org/abs/2405.20319">ParSEL: Parameterized Shape Editing with Language</a>, Ganeshan
-        et al. 2024. Models never leave this machine.
+        et al. 2024. Models never leave this machine. When you ask a language model, its provider gets your request and
+        the names, sizes and relations of the parts.
       </p>
+      <div class="quiet">
+        <Licences />
+      </div>
     </Dialog>
   );
 }

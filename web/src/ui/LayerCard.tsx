@@ -3,17 +3,10 @@ import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import type { Statement } from '../program/types';
 import type { LayerEntry } from '../session/document';
+import { misfit } from '../session/evaluation';
+import { titleOf } from '../session/layers';
 import { playing, playOn, stop } from '../session/play';
-import {
-  document,
-  misfit,
-  moveLayer,
-  pointedAt,
-  removeLayer,
-  renameLayer,
-  setEnabled,
-  titleOf,
-} from '../session/session';
+import { document, moveLayer, pointedAt, removeLayer, renameLayer, setEnabled } from '../session/session';
 import { showText } from './actions';
 import { Icon } from './Icon';
 import { Menu } from './Menu';

@@ -6,7 +6,7 @@ import { complete, listModels } from '../llm/http';
 import { forgetKey, type Keeping, keepKey, keyFor } from '../llm/keys';
 import { isAllowed, type Provider, providerOf, providers } from '../llm/providers';
 import { choiceOf, choose, currentTarget, isDemo, maxVotes, recorded, settings } from '../llm/settings';
-import { sentence } from '../session/session';
+import { sentence } from '../session/tasks';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
 

@@ -1,12 +1,14 @@
 // A layer, or a whole program from elsewhere, as text: to read, copy, change and take over.
 import { useComputed, useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
+import { parseJson } from '../program/json';
 import { programText } from '../program/text';
 import { checkProgramText, type TextError } from '../program/text_check';
 import type { Layer, Program } from '../program/types';
 import { programOf, withFreshParameters } from '../session/document';
+import { titleOf } from '../session/layers';
 import { playOnce } from '../session/play';
-import { addProgram, document, entryOf, rewriteLayer, titleOf } from '../session/session';
+import { addProgram, document, entryOf, rewriteLayer } from '../session/session';
 import { dialog, textOf } from './actions';
 import { Dialog } from './Dialog';
 import { Icon } from './Icon';
@@ -146,9 +148,10 @@ function ownName(layer: Layer, before: Layer, key: number): Layer {
 
 /** The text form of a program in JSON; null for what is none. */
 function fromJson(content: string): string | null {
+  const json = parseJson(content);
   try {
-    return programText(JSON.parse(content));
+    return json.ok ? programText(json.value as Program) : null;
   } catch {
-    return null;
+    return null; // JSON, but no program
   }
 }

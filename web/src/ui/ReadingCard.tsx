@@ -6,6 +6,7 @@ import type { Answer } from '../llm/session';
 import { costOf, isDemo } from '../llm/settings';
 import type { Layer, Shape, Statement } from '../program/types';
 import type { Hint } from '../session/document';
+import { type Understood, whyUndecided } from '../session/request';
 import {
   applyRequest,
   askAgain,
@@ -14,9 +15,7 @@ import {
   dismiss,
   requestLayer,
   requestText,
-  type Understood,
-  whyUndecided,
-} from '../session/request';
+} from '../session/requests';
 import { document, pointedAt, task } from '../session/session';
 import { Hints } from './HandPanel';
 import { Icon } from './Icon';

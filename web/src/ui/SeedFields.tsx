@@ -76,7 +76,7 @@ export function SeedFields({ shape, choice, nothing, onChange }: Props) {
       </div>
       {!isOfGroup(op) && op !== 'keep_fixed' && (
         <div class="field">
-          <span>Of it</span>
+          <span>What</span>
           <FeatureSelect
             label="The whole part or a face, edge or corner of it"
             value={feature}

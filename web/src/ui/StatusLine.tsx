@@ -1,13 +1,17 @@
 // One line for what is being done, with a way to stop it, and for what has to be said.
-import { core } from '../session/core';
-import { awaited } from '../session/open';
-import { notice, task } from '../session/session';
+import { signal } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
+import { autosave } from '../session/autosave';
+import { core, models } from '../session/core';
+import { awaited, awaitedAddress, fetchAwaited } from '../session/open';
+import { document, notice, task } from '../session/session';
+import { saveSession } from './actions';
+import { isInForeignFrame } from './frame';
 import { Icon } from './Icon';
 import { update, updateReady } from './update';
 
 export function StatusLine() {
   const state = core.value;
-  const missing = awaited.value;
   const text = notice.value?.text ?? '';
   return (
     <div class="status-line">
@@ -33,32 +37,104 @@ export function StatusLine() {
           </p>
         )}
         {!task.value && text && notice.value?.kind === 'info' && <Note text={text} kind="info" />}
-        {missing && !task.value && (
-          <p class="panel note">
-            This work was made on “{missing.model.name}”. Drop that file here to see it.
-            <button
-              type="button"
-              class="button"
-              onClick={() => {
-                awaited.value = null;
-              }}
-            >
-              Forget it
-            </button>
-          </p>
-        )}
+        {!task.value && <Awaited />}
       </div>
-      <div role="alert">{notice.value?.kind === 'error' && text && <Note text={text} kind="error" />}</div>
+      <div role="alert">
+        <Unkept />
+        {notice.value?.kind === 'error' && text && <Note text={text} kind="error" />}
+      </div>
     </div>
   );
 }
 
-function Note({ text, kind }: { text: string; kind: 'info' | 'error' }) {
+/** Work that waits for its model. What it asks to be fetched is shown first: the address is a stranger's. */
+function Awaited() {
+  const work = awaited.value;
+  const address = awaitedAddress.value;
+  if (work === null) return null;
+  const forget = (
+    <button
+      type="button"
+      class="button"
+      onClick={() => {
+        awaited.value = null;
+      }}
+    >
+      Forget it
+    </button>
+  );
+  const { name } = work.saved.model;
+  // A page around this one could lure a click here: it gets nothing but this site's own files.
+  const isOffered =
+    address !== null && (new URL(address).origin === location.origin || !isInForeignFrame()) && models.value !== null;
   return (
-    <p class={`panel note ${kind}`}>
-      {kind === 'error' && <Icon name="warning" />}
+    <p class="panel note">
+      {isOffered ? (
+        <>
+          <span>
+            This work was made on “{name}”, to be fetched from <code class="address">{address}</code>
+          </span>
+          <button type="button" class="button" onClick={() => models.value && void fetchAwaited(models.value)}>
+            Fetch it
+          </button>
+        </>
+      ) : (
+        <span>This work was made on “{name}”. Drop that file here to see it.</span>
+      )}
+      {forget}
+    </p>
+  );
+}
+
+const unkeptWords = {
+  full: 'This browser has no room left for your work: a reload would lose it.',
+  refused: 'This browser does not keep your work: a reload would lose it.',
+} as const;
+
+/** Said once; again when saving has worked in between. */
+const isDismissed = signal(false);
+autosave.unkept.subscribe((why) => {
+  if (why === null) isDismissed.value = false;
+});
+
+function Unkept() {
+  const why = autosave.unkept.value;
+  if (why === null || isDismissed.value || document.value.model === null) return null;
+  return (
+    <ErrorNote onDismiss={() => (isDismissed.value = true)}>
+      <span>{unkeptWords[why]}</span>
+      <button type="button" class="button" onClick={saveSession}>
+        Save it as a file
+      </button>
+    </ErrorNote>
+  );
+}
+
+function ErrorNote({ children, onDismiss }: { children: ComponentChildren; onDismiss: () => void }) {
+  return (
+    <p class="panel note error">
+      <Icon name="warning" />
+      {children}
+      <DismissButton onClick={onDismiss} />
+    </p>
+  );
+}
+
+function Note({ text, kind }: { text: string; kind: 'info' | 'error' }) {
+  const dismiss = () => {
+    notice.value = null;
+  };
+  if (kind === 'error') {
+    return (
+      <ErrorNote onDismiss={dismiss}>
+        <span>{text}</span>
+      </ErrorNote>
+    );
+  }
+  return (
+    <p class="panel note">
       <span>{text}</span>
-      <DismissButton onClick={() => (notice.value = null)} />
+      <DismissButton onClick={dismiss} />
     </p>
   );
 }

@@ -4,10 +4,11 @@ import { useComputed, useSignal } from '@preact/signals';
 import { useId } from 'preact/hooks';
 import type { LayerEntry } from '../session/document';
 import { nameOf } from '../session/document';
+import { titleOf } from '../session/layers';
 import { formatMeasure, larger, type Measure, measureOf, parseMeasure } from '../session/measure';
 import { interrupt } from '../session/play';
 import { readLayer } from '../session/reading';
-import { compiled, document, settle, setValue, slide, sliderValue, step, titleOf } from '../session/session';
+import { compiled, document, settle, setValue, slide, sliderValue, step } from '../session/session';
 
 const steps = 200;
 
@@ -23,7 +24,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
     const sign = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
     if (sign === undefined || !(event.shiftKey || event.altKey)) return;
     event.preventDefault();
-    setValue(entry.key, sliderValue(entry) + sign * unit * (event.shiftKey ? 10 : 0.1));
+    setValue(entry.key, sliderValue(entry) + sign * unit * (event.shiftKey ? 10 : 0.1), true);
   };
   const share = (x: number) => (x - min) / (max - min || 1);
   return (
@@ -53,7 +54,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
               // step="any" gives the arrows a step of 1 in some browsers
               event.preventDefault();
               const sign = event.key === 'ArrowRight' || event.key === 'ArrowUp' ? 1 : -1;
-              setValue(entry.key, sliderValue(entry) + sign * unit);
+              setValue(entry.key, sliderValue(entry) + sign * unit, true);
             } else onKeyDown(event);
           }}
         />

@@ -2,10 +2,12 @@
 import { type ReadonlySignal, signal } from '@preact/signals';
 import { models } from '../session/core';
 import { programOf } from '../session/document';
-import { type FileSet, sessionText } from '../session/files';
+import { editedName, plainName } from '../session/download_names';
+import { activeLayers } from '../session/evaluation';
+import { type FileSet, hasModel, sessionOf, unpacked } from '../session/files';
 import type { ExportOptions } from '../session/model_core';
 import { openFiles, openSaved } from '../session/open';
-import { activeLayers, document, run, say, selection } from '../session/session';
+import { document, run, say, selection } from '../session/session';
 import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
 import { stage } from './view';
@@ -28,16 +30,16 @@ export async function openAny(reading: Promise<FileSet>): Promise<boolean> {
     say('The core is still starting. Try again in a moment.', 'error');
     return false;
   }
-  const files = await run('Reading the files', () => reading);
+  const files = await run('Reading the files', async () => unpacked(await reading));
   if (files === null || files.size === 0) return false;
-  const text = sessionText(files);
-  if (text === null) return openFiles(core, files);
-  const read = readSavedText(text);
+  const session = sessionOf(files);
+  if (session === null) return openFiles(core, files);
+  const read = readSavedText(session);
   if (!read.ok) {
     say(read.text, 'error');
     return false;
   }
-  return openSaved(core, read.saved);
+  return openSaved(core, read, hasModel(files) ? files : null);
 }
 
 function download(name: string, content: Blob): void {
@@ -47,11 +49,8 @@ function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
 
-/** A file name from the model's name: no path, no control characters. */
-function fileName(suffix: string): string {
-  const name = document.peek().model?.shape.name ?? 'model';
-  return `${name.replace(/[^\p{L}\p{N} _.-]/gu, '').trim() || 'model'}${suffix}`;
-}
+const modelName = () => document.peek().model?.shape.name ?? '';
+const fileName = (suffix: string) => `${plainName(modelName())}${suffix}`;
 
 const jsonBlob = (value: unknown) => new Blob([JSON.stringify(value, null, 1)], { type: 'application/json' });
 
@@ -81,7 +80,7 @@ export async function exportModel(kind: 'all' | 'selected' | 'animated'): Promis
   const exported = await run('Writing the file', () => core.apply(model, program, options));
   if (exported === null) return;
   download(
-    fileName(kind === 'animated' ? '.animated.glb' : '.glb'),
+    `${editedName(modelName())}${{ all: '', selected: '.part', animated: '.animated' }[kind]}.glb`,
     new Blob([exported.glb as BlobPart], { type: 'model/gltf-binary' }),
   );
   if (exported.warnings.length > 0) say(exported.warnings.slice(0, 3).join(' '));

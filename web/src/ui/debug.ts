@@ -1,6 +1,7 @@
 // With `?debug` in its address, the page hands its core and its state to the console (and to the tests) as `parsel`.
 import type { Evaluator } from '../program/compile';
 import type { Stage } from '../scene/stage';
+import { autosave } from '../session/autosave';
 import { core } from '../session/core';
 import type { Document } from '../session/document';
 import { addProgram, document, select, slide } from '../session/session';
@@ -21,6 +22,8 @@ export interface DebugHandle {
   addProgram: typeof addProgram;
   select: typeof select;
   slide: typeof slide;
+  /** Writes the work to the store now; whether it is kept. */
+  flushed(): Promise<boolean>;
 }
 
 export function exposeForDebugging(): void {
@@ -38,6 +41,7 @@ export function exposeForDebugging(): void {
     addProgram,
     select,
     slide,
+    flushed: autosave.saveNow,
   };
   Object.assign(globalThis, { parsel: handle });
 }

@@ -35,7 +35,7 @@ export const firstChoice: SeedChoice = {
   direction: axes[0],
   normal: null,
   origin: { part: '', at: [0, 0, 0] },
-  anchor: 'middle',
+  anchor: 'fit', // more of them where they stand: at the ends they would hang in the air
   amount: null,
 };
 

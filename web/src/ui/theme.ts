@@ -22,7 +22,9 @@ export const choice = signal<Choice>(stored());
 export const isDark = computed(() => (choice.value === 'system' ? systemDark.value : choice.value === 'dark'));
 
 effect(() => {
-  document.documentElement.style.colorScheme = choice.value === 'system' ? 'light dark' : choice.value;
+  // An attribute that style/base.css answers, not a style: only there does the build see what light-dark() depends on.
+  if (choice.value === 'system') delete document.documentElement.dataset['theme'];
+  else document.documentElement.dataset['theme'] = choice.value;
   try {
     localStorage.setItem(storageKey, choice.value);
   } catch {
@@ -34,7 +36,7 @@ export function toggleTheme(): void {
   choice.value = isDark.value ? 'light' : 'dark';
 }
 
-/** The same as in style.css, whose light-dark() the canvas cannot read. */
+/** The same as in style/base.css, whose light-dark() the canvas cannot read. */
 const palette = {
   light: { accent: '#2361cf', quiet: '#5a5f66', ground: '#f3f3f0' },
   dark: { accent: '#7fabff', quiet: '#a4a9b0', ground: '#17181a' },

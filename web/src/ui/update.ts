@@ -1,7 +1,7 @@
 // The service worker: it keeps the whole page, so that it works without a network, and brings newer versions. A newer one
 // waits until somebody asks for it; then only the page that asked reloads.
 import { signal } from '@preact/signals';
-import { saveNow } from '../session/autosave';
+import { autosave } from '../session/autosave';
 import { say } from '../session/session';
 
 const checkEvery = 60 * 60 * 1000; // milliseconds, besides the check that browsers make at every visit
@@ -33,7 +33,7 @@ function follow(found: ServiceWorkerRegistration): void {
 
 /** Reloads into the newer version, with the work as it is. */
 export async function update(): Promise<void> {
-  if (!(await saveNow())) {
+  if (!(await autosave.saveNow())) {
     say('This browser keeps no work over a reload. Save the session (Export), then reload the page.', 'error');
     return;
   }

@@ -1,19 +1,17 @@
 // What stands on the stage when the page has loaded: the work of a link, else that of the last visit, else the first
 // model of the gallery with an edit that shows itself once.
 import { effect } from '@preact/signals';
-import { type Restored, restore, startAutosave } from '../session/autosave';
+import { autosave, type Restored } from '../session/autosave';
 import { models } from '../session/core';
 import { loadGallery } from '../session/gallery';
 import type { ModelCore } from '../session/model_core';
 import { openGallery, openSaved, reopen } from '../session/open';
 import { playOnce } from '../session/play';
-import { forgetOtherModels } from '../session/request';
+import { forgetOtherModels } from '../session/requests';
 import { document, propagate, say } from '../session/session';
 import { readFragment } from '../share/link';
+import { isEmbedded } from './frame';
 import { keepForOffline } from './update';
-
-/** Whether this page is a viewer in somebody's frame: it neither restores nor keeps anything. */
-export const isEmbedded = new URLSearchParams(location.search).has('embed');
 
 /** Call once; answers how to stop listening. */
 export function welcome(): () => void {
@@ -25,7 +23,7 @@ export function welcome(): () => void {
       stopWaiting();
       void begin(core).finally(() => {
         if (isEmbedded) return;
-        stopSaving = startAutosave();
+        stopSaving = autosave.start();
         void keepForOffline();
       });
     });
@@ -53,12 +51,12 @@ async function openFragment(core: ModelCore): Promise<string | null> {
   if (read === null) return '';
   if (!isEmbedded) history.replaceState(null, '', location.pathname + location.search);
   if (!read.ok) return read.text;
-  await openSaved(core, read.saved);
+  await openSaved(core, read);
   return null;
 }
 
 async function begin(core: ModelCore): Promise<void> {
-  const kept = isEmbedded ? Promise.resolve(null) : restore();
+  const kept = isEmbedded ? Promise.resolve(null) : autosave.restore();
   const fault = await openFragment(core);
   if (fault === null) return;
   await beginWithoutLink(core, await kept);
@@ -66,7 +64,7 @@ async function begin(core: ModelCore): Promise<void> {
 }
 
 async function beginWithoutLink(core: ModelCore, last: Restored | null): Promise<void> {
-  if (last !== null && (await reopen(core, last.files, last.source, last.saved))) return;
+  if (last !== null && (await reopen(core, last.files, last.source, last.work))) return;
   const [first] = await loadGallery();
   if (first === undefined || document.peek().model !== null) return;
   if (!(await openGallery(core, first.id))) return;

@@ -10,9 +10,10 @@ import {
   type Statement,
 } from '../program/types';
 import { type Document, type LayerEntry, nameOf } from '../session/document';
+import { activeLayers } from '../session/evaluation';
+import { titleOf } from '../session/layers';
 import { looseningOf } from '../session/loosening';
 import { formatMeasure, larger } from '../session/measure';
-import { activeLayers, titleOf } from '../session/session';
 import type { TraceStep } from '../session/trace';
 import { capital, listWords, relationWords, statementWords, whyWords } from './words';
 

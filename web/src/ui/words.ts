@@ -192,6 +192,7 @@ export function keptWords(reports: readonly RelationReport[]): string {
   const held = counted.filter(({ status }) => status === 'held');
   if (counted.length === 0) return '';
   const all = held.length === counted.length;
+  if (all && held.length === 1) return 'keeps its one relation at every position';
   const kept = all ? `all ${held.length}` : `${held.length} of ${counted.length}`;
   return `keeps ${kept} ${counted.length === 1 ? 'relation' : 'relations'} at every position`;
 }

@@ -1,5 +1,6 @@
 // The page's end of the core: typed calls with progress and cancel. A worker that crashed or whose call was cancelled is
-// terminated and replaced, and the calls that made up its state are replayed, so that the next call finds it unchanged.
+// terminated and replaced. What a worker has to know before a call comes with the call, as a state: it is set up when the
+// worker has another or is new, so that nobody else needs to know which worker it is.
 import * as v from 'valibot';
 import {
   type CoreErrorValue,
@@ -12,6 +13,7 @@ import {
   type Request,
   type Response,
 } from './protocol';
+import { watched } from './watch';
 
 /** The core refused, or could not do it. `message` is one sentence for people. */
 export class CoreError extends Error {
@@ -26,8 +28,17 @@ export interface CallOptions {
   onProgress?: (progress: Progress) => void;
   /** Aborting terminates the worker; the call rejects with the signal's reason, the calls behind it are sent again. */
   signal?: AbortSignal;
-  /** This call sets state in the core under the given name: it is replayed, in order, whenever the worker is replaced. */
-  state?: string;
+  /** What the core must have been told before this call. It is told when it has another state, or none. */
+  needs?: CoreState;
+  /** This call is what puts the core into this state: see setUp(). */
+  sets?: CoreState;
+}
+
+/** A call that puts the core into a state; the core has one at a time. The same object is the same state. */
+export interface CoreState<M extends Method = Method> {
+  readonly method: M;
+  readonly parameters: unknown;
+  readonly buffers: readonly Uint8Array[];
 }
 
 export interface CallReply<M extends Method> {
@@ -40,6 +51,8 @@ interface PendingCall {
   method: Method;
   parameters: unknown;
   buffers: Uint8Array[];
+  needs: CoreState | undefined;
+  sets: CoreState | undefined;
   onProgress: ((progress: Progress) => void) | undefined;
   settle: (outcome: { json: string; buffers: Uint8Array[] } | CoreError) => void;
 }
@@ -50,10 +63,14 @@ export interface WorkerLike {
   terminate(): void;
   onmessage: ((event: MessageEvent<Response>) => void) | null;
   onerror: ((event: ErrorEvent) => void) | null;
+  /** It has ended without a word: browsers end workers that want too much memory, and tell nobody. */
+  ondeath?: (() => void) | null;
 }
 
-/** Replayed calls have no caller. */
-const replayId = 0;
+/** Of calls that set up a state: they have no caller of their own. */
+const setUpId = 0;
+
+const envelopeSchema = v.union([v.strictObject({ result: v.unknown() }), v.strictObject({ error: errorSchema })]);
 
 const crashError = (text: string): CoreError =>
   new CoreError({
@@ -66,15 +83,16 @@ const crashError = (text: string): CoreError =>
 export class CoreClient {
   #worker: WorkerLike | undefined;
   #ready = false;
-  /** Replayed calls that the worker has not answered yet. */
-  #replaying = 0;
+  /** What the worker has been told. */
+  #state: CoreState | null = null;
+  /** What it is being told. */
+  #settingUp: CoreState | null = null;
+  /** What it is told as soon as it is idle, so that the next call need not wait: what the worker before it knew. */
+  #wanted: CoreState | null = null;
   #nextId = 1;
   #queue: PendingCall[] = [];
-  #state = new Map<string, { method: Method; parameters: unknown; buffers: Uint8Array[] }>();
   /** How often the worker has been replaced. */
   respawns = 0;
-  /** The worker was replaced and could not take its state up again: calls that need it fail until it is set anew. */
-  onStateLost: () => void = () => {};
   /** How long the module took to instantiate and warm up, last time, in milliseconds. */
   startMilliseconds = Number.NaN;
 
@@ -87,7 +105,7 @@ export class CoreClient {
 
   /** Rejects with CoreError when the core refuses, with the signal's reason when cancelled. */
   async call<M extends Method>(method: M, parameters: Parameters<M>, options: CallOptions = {}): Promise<CallReply<M>> {
-    const { signal, state } = options;
+    const { signal, needs, sets } = options;
     signal?.throwIfAborted();
     const buffers = options.buffers ?? [];
     const reply = await new Promise<{ json: string; buffers: Uint8Array[] }>((resolve, reject) => {
@@ -96,6 +114,8 @@ export class CoreClient {
         method,
         parameters,
         buffers,
+        needs,
+        sets,
         onProgress: options.onProgress,
         settle: (outcome) => {
           signal?.removeEventListener('abort', cancel);
@@ -116,19 +136,21 @@ export class CoreClient {
       else if (this.#queue.length === 1) this.#send();
     });
 
-    const envelope = v.parse(
-      v.union([v.strictObject({ result: v.unknown() }), v.strictObject({ error: errorSchema })]),
-      JSON.parse(reply.json),
-    );
+    const envelope = v.parse(envelopeSchema, JSON.parse(reply.json));
     if ('error' in envelope) throw new CoreError(envelope.error);
-    if (state !== undefined) {
-      this.#state.delete(state); // replay in the order in which the state was last set
-      this.#state.set(state, { method, parameters, buffers });
-    }
     return {
       result: v.parse(methodSchemas[method].result, envelope.result) as MethodResult<M>,
       buffers: reply.buffers,
     };
+  }
+
+  /** Puts the core into a state, for what that gives: calls that need it find it there. */
+  setUp<M extends Method>(
+    state: CoreState<M>,
+    options: Pick<CallOptions, 'signal' | 'onProgress'> = {},
+  ): Promise<CallReply<M>> {
+    const { method, parameters, buffers } = state;
+    return this.call(method, parameters as Parameters<M>, { ...options, buffers: [...buffers], sets: state });
   }
 
   /** Ends the worker; a later call starts a new one. */
@@ -143,7 +165,8 @@ export class CoreClient {
       this.respawns++;
     }
     this.#ready = false;
-    this.#replaying = 0;
+    this.#state = null;
+    this.#settingUp = null;
     const worker = this.createWorker();
     this.#worker = worker;
     worker.onmessage = ({ data }) => {
@@ -152,15 +175,26 @@ export class CoreClient {
     worker.onerror = (event) => {
       if (worker === this.#worker) this.#receive({ kind: 'crashed', text: event.message });
     };
+    worker.ondeath = () => {
+      if (worker === this.#worker) this.#receive({ kind: 'crashed', text: 'the browser ended it' });
+    };
     worker.postMessage({ kind: 'start', module: this.module });
   }
 
-  /** Sends the first call in line; one at a time, so that a crash is known to be its fault. */
+  /** Sends the first call in line, or what it needs; one at a time, so that a crash is known to be its fault. */
   #send(): void {
+    if (!this.#ready || this.#settingUp !== null) return;
     const [first] = this.#queue;
-    if (first === undefined || !this.#ready || this.#replaying > 0) return;
-    const { id, method, parameters, buffers } = first;
-    this.#worker?.postMessage({ kind: 'call', id, method, parameters, buffers });
+    const needs = first === undefined ? this.#wanted : first.needs;
+    if (needs !== undefined && needs !== null && needs !== this.#state) {
+      this.#settingUp = needs;
+      this.#state = null;
+      this.#post(setUpId, needs);
+    } else if (first !== undefined) this.#post(first.id, first);
+  }
+
+  #post(id: number, { method, parameters, buffers }: CoreState): void {
+    this.#worker?.postMessage({ kind: 'call', id, method, parameters, buffers: [...buffers] });
   }
 
   #receive(response: Response): void {
@@ -169,16 +203,17 @@ export class CoreClient {
       case 'ready':
         this.startMilliseconds = response.startMilliseconds;
         this.#ready = true;
-        this.#replaying = this.#state.size;
-        for (const call of this.#state.values()) this.#worker?.postMessage({ kind: 'call', id: replayId, ...call });
         this.#send();
         return;
       case 'progress':
-        if (response.id === first?.id) first.onProgress?.(response);
+        if (response.id === first?.id || response.id === setUpId) first?.onProgress?.(response);
         return;
       case 'reply':
-        if (response.id === replayId) this.#replayed(response.json);
-        else if (response.id === first?.id) first.settle(response);
+        if (response.id === setUpId) this.#haveSetUp(response);
+        else if (response.id === first?.id) {
+          if (first.sets !== undefined) this.#have(first.sets, response.json);
+          first.settle(response);
+        }
         this.#send();
         return;
       case 'crashed':
@@ -186,14 +221,22 @@ export class CoreClient {
     }
   }
 
-  #replayed(json: string): void {
-    this.#replaying--;
-    if ('error' in JSON.parse(json)) this.#loseState();
+  /** Where the core refuses a state, whoever needs it hears why. */
+  #haveSetUp(reply: { json: string; buffers: Uint8Array[] }): void {
+    const state = this.#settingUp;
+    this.#settingUp = null;
+    if (state === null || this.#have(state, reply.json)) return;
+    const [first] = this.#queue;
+    if (first?.needs === state) first.settle(reply);
   }
 
-  #loseState(): void {
-    this.#state.clear();
-    this.onStateLost();
+  /** What the core knows after it has been told a state; whether it has taken it. */
+  #have(state: CoreState, json: string): boolean {
+    const taken = !('error' in (JSON.parse(json) as object));
+    this.#state = taken ? state : null;
+    if (taken) this.#wanted = state;
+    else if (this.#wanted === state) this.#wanted = null;
+    return taken;
   }
 
   #recover(text: string): void {
@@ -203,8 +246,8 @@ export class CoreClient {
       for (const call of [...this.#queue]) call.settle(crashError(text));
       return;
     }
-    // State that crashes when it is replayed would do so for ever.
-    if (this.#replaying > 0) this.#loseState();
+    // A state that crashes is not set up again unless somebody needs it.
+    if (this.#settingUp !== null) this.#wanted = null;
     this.#queue[0]?.settle(crashError(text));
     this.#spawn();
   }
@@ -213,8 +256,7 @@ export class CoreClient {
 /** Compiles the module and starts the worker of the page. */
 export async function startCore(wasmUrl: string): Promise<CoreClient> {
   const module = await WebAssembly.compileStreaming(fetch(wasmUrl));
-  return new CoreClient(
-    module,
-    () => new Worker(new URL('./core.worker.ts', import.meta.url), { type: 'module', name: 'parsel-core' }),
+  return new CoreClient(module, () =>
+    watched((name) => new Worker(new URL('./core.worker.ts', import.meta.url), { type: 'module', name })),
   );
 }

@@ -1,6 +1,9 @@
 // Owns the WebAssembly module. Answers one call at a time; whatever breaks the module itself is reported as `crashed`.
 import createModule, { type ParselModule } from 'parsel-module/parsel.mjs';
 import type { Request, Response } from './protocol';
+import { holdWatchedLock } from './watch';
+
+holdWatchedLock();
 
 let core: ParselModule | undefined;
 

@@ -2,6 +2,9 @@
 import dracoUrl from 'draco3dgltf/draco_decoder_gltf.wasm?url';
 import type { ModelFiles } from '../scene/load';
 import { type Decompressed, decompress } from './decompress';
+import { holdWatchedLock } from './watch';
+
+holdWatchedLock();
 
 export type DecompressReply = Decompressed | { readonly error: string };
 

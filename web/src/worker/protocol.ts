@@ -73,7 +73,7 @@ export const methodSchemas = {
   /**
    * Opens a model: buffers are the file and then its external buffers, in the order of their names in `external`. The
    * shape is `parsel/shape` v1. `labels` take the place of the file's own, by "node:<index>" or
-   * "node:<index>/<primitive>". Sets the core's state: call it with a `state` of its own.
+   * "node:<index>/<primitive>". Puts the core into a state: see CoreState in client.ts.
    */
   open: {
     parameters: v.strictObject({

@@ -1,0 +1,80 @@
+// Which room of the page may import what: one table. Run by `npm run lint`; a wrong import fails with the room's rule.
+import { readdirSync, readFileSync } from 'node:fs';
+import { dirname, join, normalize } from 'node:path';
+import { argv } from 'node:process';
+import { fileURLToPath } from 'node:url';
+
+const src = join(dirname(fileURLToPath(import.meta.url)), '../web/src');
+
+/** room: the rooms, or single files of them, and the packages that it may import, and why. */
+const rooms = {
+  program: {
+    may: [],
+    packages: ['valibot'],
+    rule: 'program reads, checks and evaluates programs and nothing else; it also runs where there is no page',
+  },
+  scene: {
+    may: ['program'],
+    packages: ['three', 'camera-controls'],
+    rule: 'scene draws what it is given; it knows neither the session nor the core',
+  },
+  worker: {
+    may: ['scene/load'],
+    packages: ['valibot', 'parsel-module', 'draco3dgltf', 'meshoptimizer', '@gltf-transform'],
+    rule: 'worker is the way to the core and back; of the page it knows the type of a file alone',
+  },
+  llm: {
+    may: ['program/json', 'worker/protocol'],
+    packages: ['@preact/signals', 'valibot', 'idb-keyval'],
+    rule: 'llm asks language models; what prompts and replies mean is the business of the core and the session',
+  },
+  share: {
+    may: ['program', 'scene/camera', 'session/document'],
+    packages: ['valibot'],
+    rule: 'share writes and reads saved work; of the session it knows the type of the work alone',
+  },
+  session: {
+    may: ['program', 'scene', 'worker', 'llm', 'share'],
+    packages: ['@preact/signals', 'valibot', 'idb-keyval', 'fflate', 'parsel-module', 'draco3dgltf'],
+    rule: 'session is the state of the page and what can be done to it, without a single element of the page',
+  },
+  ui: {
+    may: ['program', 'scene', 'worker', 'llm', 'share', 'session'],
+    packages: ['preact', '@preact/signals'],
+    rule: 'ui shows the session and calls it; drawing, storing and asking are done in their rooms',
+  },
+};
+
+const imported = /\b(?:from|import)\s*\(?\s*'([^']+)'/g;
+
+/** @param file its path below web/src, of a room */
+export function importFaults(file, text) {
+  const [room] = file.split('/');
+  if (!file.includes('/')) return []; // main.tsx starts it all
+  if (!(room in rooms))
+    return [`web/src/${room}: this folder has no row in tests/check_imports.mjs; say there what it may import`];
+  const { may, packages, rule } = rooms[room];
+  const isAllowed = (path) => {
+    if (!path.startsWith('.'))
+      return packages.some((name) => path === name || path.startsWith(`${name}/`)) || path.startsWith('node:');
+    const target = normalize(join(dirname(file), path));
+    const [other] = target.split('/');
+    return other === room || may.includes(other) || may.includes(target.replace(/\.tsx?$/, ''));
+  };
+  return text
+    .split('\n')
+    .flatMap((line, i) =>
+      [...line.matchAll(imported)]
+        .filter(([, path]) => !isAllowed(path))
+        .map(([, path]) => `web/src/${file}:${i + 1}: ${path}: ${rule}`),
+    );
+}
+
+if (argv[1] === fileURLToPath(import.meta.url)) {
+  const files = readdirSync(src, { recursive: true, encoding: 'utf8' }).filter((file) => /\.tsx?$/.test(file));
+  const faults = files.flatMap((file) => importFaults(file, readFileSync(join(src, file), 'utf8')));
+  if (faults.length > 0) {
+    process.stderr.write(`${faults.join('\n')}\n`);
+    process.exit(1);
+  }
+}

@@ -1,0 +1,28 @@
+// That the table of imports catches what it is there for.
+import { describe, expect, it } from 'vitest';
+import { importFaults } from '../check_imports.mjs';
+
+describe('an import', () => {
+  it.each([
+    ['program/parse.ts', "import type { Result } from './types';"],
+    ['program/schema.ts', "import * as v from 'valibot';"],
+    ['llm/http.ts', "import { parseJson } from '../program/json';"],
+    ['session/files.ts', "  const { unzip } = await import('fflate');"],
+    ['main.tsx', "import { App } from './ui/App';"],
+  ])('that the room of %s may make passes: %s', (file, line) => {
+    expect(importFaults(file, line)).toEqual([]);
+  });
+
+  it.each([
+    ['program/parse.ts', "import * as three from 'three';", /program reads, checks and evaluates/],
+    ['program/parse.ts', "import type { Document } from '../session/document';", /program reads/],
+    ['scene/stage.ts', "import { document } from '../session/session';", /scene draws what it is given/],
+    ['llm/http.ts', "import { parse } from '../program/parse';", /llm asks language models/],
+    ['session/files.ts', "import { render } from 'preact';", /without a single element/],
+    ['ui/App.tsx', "import { get } from 'idb-keyval';", /done in their rooms/],
+    ['ui/App.tsx', "  await import('fflate');", /done in their rooms/],
+    ['new/one.ts', '', /web\/src\/new: this folder has no row/],
+  ])('that the room of %s may not make fails with its rule: %s', (file, line, rule) => {
+    expect(importFaults(file, `\n${line}`)).toEqual([expect.stringMatching(rule)]);
+  });
+});

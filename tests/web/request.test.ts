@@ -1,0 +1,189 @@
+// A request from what is typed to its layer, and its corrections, without a page, a core or a language model.
+import { signal } from '@preact/signals';
+import { describe, expect, it, vi } from 'vitest';
+import { AskError } from '../../web/src/llm/ask_error';
+import type { Source } from '../../web/src/llm/source';
+import { emptyDocument } from '../../web/src/session/document';
+import type { ModelCore } from '../../web/src/session/model_core';
+import { createRequests, type RequestParts } from '../../web/src/session/request';
+import { createSession } from '../../web/src/session/session';
+import { edit, fakeCore, moving, openModel, understood } from './fake_core';
+
+const source: Source = {
+  votes: () => 1,
+  kept: async () => undefined,
+  reply: async () => ({ text: 'moved', tokens: null }),
+  discard: async () => {},
+};
+
+function ready(change: Partial<RequestParts> = {}) {
+  const session = createSession();
+  session.replaceDocument({ ...emptyDocument, model: openModel('boxes') }, 'open boxes');
+  const core = fakeCore();
+  const play = vi.fn();
+  const requests = createRequests({
+    session,
+    models: signal<ModelCore | null>(core),
+    questionOf: async (_, request, mentioned) => ({ request, mentioned, source }),
+    votes: () => 3,
+    play,
+    ...change,
+  });
+  requests.requestText.value = 'lift it';
+  const moved = () => session.document.value.layers.map(({ layer }) => (layer.statements[0] as { part: string }).part);
+  return { session, core, play, requests, moved };
+}
+const settled = (made: ReturnType<typeof ready>) => vi.waitFor(() => expect(made.session.task.value).toBe(null));
+
+describe('a request', () => {
+  it('becomes a layer in one step, is shown once, and empties the field', async () => {
+    const { session, play, requests, moved } = ready();
+    requests.mention('left');
+    await requests.sendRequest();
+    expect(moved()).toEqual(['left']);
+    expect(session.undoLabel.value).toBe('lift it');
+    expect(requests.requestLayer.value?.request).toBe('lift it');
+    expect(play).toHaveBeenCalledExactlyOnceWith(session.document.value.layers[0]?.key);
+    expect([requests.requestText.value, requests.mentioned.value]).toEqual(['', []]);
+  });
+
+  it('keeps what is typed meanwhile', async () => {
+    const { requests } = ready();
+    const sending = requests.sendRequest();
+    requests.requestText.value = 'and then';
+    await sending;
+    expect(requests.requestText.value).toBe('and then');
+  });
+
+  it('that is not decided is not applied before one chooses', async () => {
+    const made = ready();
+    const { core, requests, moved } = made;
+    core.inference = { ...understood('left'), seed: { ...understood('left').seed, outcome: 'split' } };
+    await requests.sendRequest();
+    expect(moved()).toEqual([]);
+    requests.chooseReading(1);
+    await settled(made);
+    expect(moved()).toEqual([]); // chosen, not applied
+    await requests.applyRequest();
+    expect(moved()).toEqual(['right']);
+  });
+
+  it('that cannot be asked says so and whether the settings help', async () => {
+    const refusal = new AskError('no_key', '', 'There is no key', 'Enter one');
+    const { requests } = ready({ questionOf: () => Promise.reject(refusal) });
+    await requests.sendRequest();
+    expect(requests.request.value).toEqual({ kind: 'failed', text: 'There is no key. Enter one.', isSetting: true });
+    expect(requests.requestText.value).toBe('lift it');
+    requests.dismiss();
+    expect(requests.request.value).toEqual({ kind: 'idle' });
+  });
+
+  it('can be cancelled, and keeps what was typed', async () => {
+    const { requests } = ready({
+      questionOf: async (_, request, mentioned) => ({
+        request,
+        mentioned,
+        source: {
+          ...source,
+          reply: (_prompt, _vote, _schema, stop) =>
+            new Promise((_resolve, reject) => stop.addEventListener('abort', () => reject(stop.reason))),
+        },
+      }),
+    });
+    const sending = requests.sendRequest();
+    await vi.waitFor(() => expect(requests.request.value).toMatchObject({ kind: 'asking', tasks: [{ of: 1 }] }));
+    requests.cancelRequest();
+    await sending;
+    expect(requests.request.value).toEqual({ kind: 'idle' });
+    expect(requests.requestText.value).toBe('lift it');
+  });
+
+  it('is forgotten with its model; parts of the other that are not there are no longer mentioned', async () => {
+    const { session, requests } = ready();
+    const stop = requests.forgetOtherModels();
+    await requests.sendRequest();
+    requests.mention('left');
+    requests.mention('lid');
+    session.replaceDocument({ ...emptyDocument, model: openModel('another') }, 'open another');
+    expect(requests.request.value).toEqual({ kind: 'idle' });
+    expect(requests.mentioned.value).toEqual(['left']);
+    stop();
+  });
+});
+
+describe('a correction', () => {
+  it('makes the layer anew in its step; later steps and undo stay', async () => {
+    const made = ready();
+    const { session, core, requests, moved } = made;
+    await requests.sendRequest();
+    const key = session.document.value.layers[0]?.key;
+    session.addProgram(moving('left'), 'by hand');
+    requests.correctEdit(edit('right'));
+    expect(moved()).toEqual(['left', 'left']); // what was there stays until the other is found
+    await settled(made);
+    expect(core.asked).toEqual(['left', 'right']);
+    expect(moved()).toEqual(['right', 'left']);
+    expect(session.document.value.layers[0]?.key).toBe(key);
+    session.undo();
+    expect(moved()).toEqual(['right']);
+    session.undo();
+    expect(moved()).toEqual([]);
+    expect(session.undoLabel.value).toBe(null);
+  });
+
+  it('that the core refuses leaves the layer as it was', async () => {
+    const made = ready();
+    const { session, core, requests, moved } = made;
+    await requests.sendRequest();
+    core.answer = () => Promise.reject(new Error('it is round'));
+    requests.correctEdit(edit('right'));
+    await settled(made);
+    expect(moved()).toEqual(['left']);
+    expect(session.notice.value?.text).toBe('It is round.');
+    expect(session.undoLabel.value).toBe('lift it');
+  });
+
+  it('in the middle of another goes on from it', async () => {
+    const made = ready();
+    const { session, core, requests, moved } = made;
+    await requests.sendRequest();
+    requests.correctEdit(edit('right'));
+    requests.correctEdit({ hints: { left: 'keep_fixed' } });
+    await settled(made);
+    expect(core.asked).toEqual(['left', 'right', 'right']);
+    expect(moved()).toEqual(['right']);
+    session.undo();
+    expect(moved()).toEqual([]);
+  });
+
+  it('of a request whose layer was undone waits until it is applied, and is a new step then', async () => {
+    const made = ready();
+    const { session, core, requests, moved } = made;
+    await requests.sendRequest();
+    session.undo();
+    requests.correctEdit(edit('right'));
+    await settled(made);
+    expect(core.asked).toEqual(['left']);
+    await requests.applyRequest();
+    expect(moved()).toEqual(['right']);
+  });
+
+  it('by asking again takes the place of what came before', async () => {
+    const { core, requests, moved, session } = ready();
+    await requests.sendRequest();
+    core.inference = understood('right');
+    const before = requests.request.value;
+    if (before.kind !== 'understood') throw new Error(before.kind);
+    await requests.askAgain(before);
+    expect(moved()).toEqual(['right']);
+    session.undo();
+    expect(moved()).toEqual([]);
+  });
+});
+
+describe('an estimate', () => {
+  it('is there where calls are paid for', async () => {
+    expect(await ready().requests.estimateRequest()).toMatchObject({ calls: 3 });
+    expect(await ready({ votes: () => null }).requests.estimateRequest()).toBe(null);
+  });
+});

@@ -1,0 +1,176 @@
+// The edits: adding, changing and arranging layers, each as one step of the history.
+import { batch } from '@preact/signals';
+import { checkProgram } from '../program/check';
+import { errorMessage, type Layer, type Program } from '../program/types';
+import { type Document, type LayerEntry, programOf, withFreshParameters } from './document';
+import { activeLayers, type Evaluation } from './evaluation';
+import type { History, Mark } from './history';
+import type { Propagation } from './model_core';
+import type { Tasks } from './tasks';
+import type { Trace } from './trace';
+
+export interface Layers {
+  /** Keeps where a slider has been moved to, as one step of the history. */
+  settle(key: number): void;
+  /** @param inRun of the steps of a run, such as the arrow keys make, all but the first are none of their own */
+  setValue(key: number, value: number, inRun?: boolean): void;
+  /** Makes the draft a layer of the work, where its slider stands; answers its key. One step of the history. */
+  keepDraft(): number | null;
+  newEntry(layer: Layer, value?: number, enabled?: boolean): LayerEntry;
+  /** Layers of a program as they would stand behind the present ones; null, and a sentence, when they do not fit. */
+  entriesOf(found: Propagation): readonly LayerEntry[] | null;
+  /** Adds the layers of a program behind the present ones; answers their keys, or null when they do not fit. */
+  addProgram(program: Program, label: string, trace?: Trace): readonly number[] | null;
+  /**
+   * Puts another layer in place of one, in the step that made it: later steps stay, and the slider stays where it is.
+   * False when that step is undone, when the layer is gone, or when the other does not fit, which it says.
+   */
+  amendLayer(mark: Mark, key: number, found: Propagation): boolean;
+  /** Puts a layer that was edited as text in place of what it was. What propagation found out about it goes. */
+  rewriteLayer(key: number, layer: Layer): void;
+  removeLayer(key: number): void;
+  setEnabled(key: number, enabled: boolean): void;
+  renameLayer(key: number, request: string): void;
+  /** @param by −1 up, 1 down */
+  moveLayer(key: number, by: -1 | 1): void;
+}
+
+/** With a capital, however it was typed. */
+export function titleOf({ request }: Layer): string {
+  return request === '' ? 'Edit' : request.charAt(0).toUpperCase() + request.slice(1);
+}
+
+type Entries = readonly LayerEntry[];
+
+const replace = (layers: Entries, key: number, change: Partial<LayerEntry>): Entries =>
+  layers.map((entry) => (entry.key === key ? { ...entry, ...change } : entry));
+
+const clamp = (value: number, { min, max }: Layer['parameter']) => Math.min(max, Math.max(min, value));
+
+export function createLayers(
+  history: History<Document>,
+  { draft, sliderValue, slide }: Evaluation,
+  say: Tasks['say'],
+): Layers {
+  const document = history.present;
+  let nextKey = 1;
+
+  function changeLayers(label: string, edit: (layers: Entries) => Entries, mergeKey?: string): void {
+    const before = document.peek();
+    history.push(label, { ...before, layers: edit(before.layers) }, mergeKey);
+  }
+
+  const newEntry = (layer: Layer, value = layer.parameter.value, enabled = true): LayerEntry => ({
+    key: nextKey++,
+    layer,
+    enabled,
+    value,
+  });
+
+  /** Whether layers go together on the present model; says so when they do not. */
+  function goTogether(layers: Entries): boolean {
+    const { model } = document.peek();
+    if (model === null) return false;
+    const checked = checkProgram(programOf(model.shape, layers), model.shape);
+    if (!checked.ok) say(`This program does not fit the model. ${errorMessage(checked.error)}`, 'error');
+    return checked.ok;
+  }
+
+  /** Layers under parameter names that those of `others` do not have. */
+  const named = (layers: readonly Layer[], others: Entries): Layer[] =>
+    withFreshParameters(layers, new Set(others.map(({ layer }) => layer.parameter.name)));
+
+  function entriesOf({ program, trace }: Propagation): Entries | null {
+    const entries = named(program.layers, document.peek().layers).map((layer) => ({
+      ...newEntry(layer),
+      ...(trace === undefined ? {} : { trace }),
+    }));
+    return goTogether([...activeLayers(document.peek()), ...entries]) ? entries : null;
+  }
+
+  function addProgram(program: Program, label: string, trace?: Trace): readonly number[] | null {
+    const entries = entriesOf({ program, ...(trace === undefined ? {} : { trace }) });
+    if (entries === null) return null;
+    changeLayers(label, (layers) => [...layers, ...entries]);
+    return entries.map(({ key }) => key);
+  }
+
+  function amendLayer(mark: Mark, key: number, { program, trace }: Propagation): boolean {
+    const { layers } = document.peek();
+    const others = layers.filter((entry) => entry.key !== key);
+    const [layer] = named(program.layers, others);
+    if (layer === undefined || others.length === layers.length) return false;
+    const amended = ({ value, enabled }: LayerEntry): LayerEntry => ({
+      key,
+      layer,
+      enabled,
+      value: clamp(value, layer.parameter),
+      ...(trace === undefined ? {} : { trace }),
+    });
+    const inPlace = (entries: Entries) => entries.map((entry) => (entry.key === key ? amended(entry) : entry));
+    if (!goTogether(inPlace(activeLayers(document.peek())))) return false;
+    const { model } = document.peek();
+    // What was found holds for this model and its labels; states of before another was given keep what they had.
+    return history.amend(mark, (state) =>
+      state.model === model ? { ...state, layers: inPlace(state.layers) } : state,
+    );
+  }
+
+  function settle(key: number, inRun = false): void {
+    const entry = document.peek().layers.find((other) => other.key === key);
+    if (entry === undefined || sliderValue(entry) === entry.value) return;
+    const value = sliderValue(entry);
+    const label = `slide “${titleOf(entry.layer)}”`;
+    changeLayers(label, (layers) => replace(layers, key, { value }), inRun ? `value ${key}` : undefined);
+  }
+
+  return {
+    settle: (key) => settle(key),
+    setValue(key, value, inRun = false) {
+      slide(key, value);
+      settle(key, inRun);
+    },
+    keepDraft() {
+      const entry = draft.peek();
+      if (entry === null) return null;
+      const kept = { ...entry, value: sliderValue(entry) };
+      batch(() => {
+        draft.value = null;
+        changeLayers(titleOf(entry.layer), (layers) => [...layers, kept]);
+      });
+      return kept.key;
+    },
+    newEntry,
+    entriesOf,
+    addProgram,
+    amendLayer,
+    rewriteLayer(key, layer) {
+      changeLayers('edit as text', (layers) =>
+        layers.map((entry) =>
+          entry.key === key ? { key, layer, enabled: entry.enabled, value: layer.parameter.value } : entry,
+        ),
+      );
+    },
+    removeLayer(key) {
+      changeLayers('remove edit', (layers) => layers.filter((entry) => entry.key !== key));
+    },
+    setEnabled(key, enabled) {
+      changeLayers(enabled ? 'switch edit on' : 'switch edit off', (layers) => replace(layers, key, { enabled }));
+    },
+    renameLayer(key, request) {
+      const entry = document.peek().layers.find((other) => other.key === key);
+      if (entry === undefined || entry.layer.request === request) return;
+      changeLayers('rename edit', (layers) => replace(layers, key, { layer: { ...entry.layer, request } }));
+    },
+    moveLayer(key, by) {
+      changeLayers('reorder edits', (layers) => {
+        const from = layers.findIndex((entry) => entry.key === key);
+        const to = from + by;
+        const moved = layers[from];
+        if (moved === undefined || to < 0 || to >= layers.length) return layers;
+        const others = layers.filter((entry) => entry.key !== key);
+        return [...others.slice(0, to), moved, ...others.slice(to)];
+      });
+    },
+  };
+}

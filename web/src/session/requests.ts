@@ -1,0 +1,75 @@
+// The page's own requests: who is asked, and what without a key is asked of recordings.
+import { AskError } from '../llm/ask_error';
+import { browserCache } from '../llm/cache';
+import { findRecorded, loadRecordings } from '../llm/recordings';
+import { currentTarget, isDemo, settings } from '../llm/settings';
+import { liveSource, recordedSource } from '../llm/source';
+import { models } from './core';
+import type { OpenModel } from './document';
+import { playOnce } from './play';
+import { createRequests, type Question } from './request';
+import { session } from './session';
+
+const galleryOf = ({ source }: OpenModel): string | null => (source.kind === 'gallery' ? source.id : null);
+
+/** @throws AskError that says why nobody can be asked */
+async function questionOf(
+  model: OpenModel,
+  text: string,
+  parts: readonly string[],
+  afresh: boolean,
+): Promise<Question> {
+  if (!isDemo.peek()) {
+    const source = liveSource(currentTarget(), { votes: settings.peek().votes, cache: browserCache, afresh });
+    return { request: text, mentioned: parts, source };
+  }
+  if (model.labels.size > 0)
+    throw new AskError(
+      'no_recording',
+      '',
+      'The recorded answers are about the parts as the file names them, and some have other labels now',
+      'Reset those labels, or enter a key in the settings to ask anything',
+    );
+  const gallery = galleryOf(model);
+  const recordings = gallery === null ? null : await loadRecordings(gallery);
+  const known = findRecorded(recordings, text, parts);
+  if (recordings === null || recordings.requests.length === 0)
+    throw new AskError(
+      'no_recording',
+      '',
+      'Without a key only recorded requests work, and there are none for this model',
+      'Enter a key in the settings to ask anything, or edit by hand',
+    );
+  if (known === undefined)
+    throw new AskError(
+      'no_recording',
+      '',
+      'This request has no recorded answer',
+      'Try one of the recorded ones below, or enter a key in the settings to ask anything',
+    );
+  return { ...known, source: recordedSource(recordings) };
+}
+
+export const {
+  applyRequest,
+  askAgain,
+  cancelRequest,
+  chooseReading,
+  correctEdit,
+  dismiss,
+  estimateRequest,
+  forgetOtherModels,
+  mention,
+  mentioned,
+  request,
+  requestLayer,
+  requestText,
+  sendRequest,
+  unmention,
+} = createRequests({
+  session,
+  models,
+  questionOf,
+  votes: () => (isDemo.peek() ? null : settings.peek().votes),
+  play: playOnce,
+});
