@@ -12,7 +12,10 @@ const rooms = {
   shape: { may: ['base', 'gltf'], rule: 'shape finds parts and relations and knows nothing of edits' },
   amount: { may: ['base'], rule: 'amount is the expression language alone' },
   edit: { may: ['base', 'shape', 'amount'], rule: 'edit holds programs and their evaluation, not how they are found' },
-  export: { may: ['base', 'gltf', 'shape', 'edit'], rule: 'export writes edited models; it evaluates programs, no more' },
+  export: {
+    may: ['base', 'gltf', 'shape', 'edit'],
+    rule: 'export writes edited models; it evaluates programs, no more',
+  },
   prove: { may: ['base', 'shape', 'amount', 'edit'], rule: 'prove bounds what a program does and knows no search' },
   propagate: {
     may: ['base', 'shape', 'amount', 'edit', 'prove'],
@@ -48,7 +51,8 @@ for (const room of readdirSync(join(root, 'core'), { withFileTypes: true })) {
       const found = /^\s*#\s*include\s*["<]([^">]+)[">]/.exec(line);
       if (!found) return;
       const place = `core/${room.name}/${file}:${i + 1}: ${found[1]}`;
-      if (/^(emscripten|wasm|tests|web)\//.test(found[1])) faults.push(`${place}: the core is plain C++ and knows no leaf`);
+      if (/^(emscripten|wasm|tests|web)\//.test(found[1]))
+        faults.push(`${place}: the core is plain C++ and knows no leaf`);
       const [top, other, header] = found[1].split('/');
       if (top !== 'core' || other === room.name) return;
       if (!may.includes(other) && !may.includes(`${other}/${header}`)) faults.push(`${place}: ${rule}`);

@@ -73,7 +73,7 @@ export function fakeCore(): FakeCore {
     },
     prompts: async () => ({
       prompts: [{ task: 'seed_edit', relation: null, text: 'p', hash: 'h', version: '1' }],
-      schemas: { seed_edit: {}, type_hints: {}, relation_validity_reflection: {}, relation_validity_group: {} },
+      tasks: { seed_edit: { words: 'the edit', schema: {} } },
     }),
     readReplies: async () => core.inference,
   };
