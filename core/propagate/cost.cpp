@@ -14,9 +14,6 @@ constexpr double largest_stretch = 2.5;
 constexpr double distorted = 3;
 /// Of an axis as long as the part, and on top for one that is thin beside it: legs get longer before they get thicker.
 constexpr double strain_along = 0.3, strain_across = 2;
-/// A slant, or an edge that bends: a last resort, but better than to tear a joint off. At 3 a whole chest slants rather
-/// than let one drawer slide out of it.
-constexpr double slant = 5;
 /// Points and axes of another part: dearer than its own of the same kind.
 constexpr double price_of_borrowing = 0.5;
 
@@ -38,7 +35,7 @@ double largest_change(const Corners& rest, const Corners& deformed, int axis) {
 
 }  // namespace
 
-double price_of_kind(const Candidate& candidate, bool fills) {
+double price_of_kind(const Prices& prices, const Candidate& candidate, bool fills) {
   const bool whole = candidate.what.feature == LocalTriple{0, 0, 0};
   double price = 0.6;
   if (!is_geometric(candidate.what.op)) {
@@ -50,7 +47,7 @@ double price_of_kind(const Candidate& candidate, bool fills) {
   } else if (candidate.symmetry_cost == 1) {
     price = 0.9;
   } else if (candidate.symmetry_cost >= 2) {
-    price = slant;
+    price = prices.slant;
   }
   return price + (candidate.from_neighbour ? price_of_borrowing : 0);
 }

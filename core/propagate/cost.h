@@ -1,8 +1,7 @@
 // What an edit of a part costs: one number, so that every choice of the search can be pointed at. Terms are sums over
 // parts and relations and never negative, so that a partial search only grows dearer.
 //
-// The unit is one twentieth of a joint that comes apart… said otherwise: a broken joint costs 8, and everything else is
-// measured against it. Where each number comes from stands beside it; tests/bench/run.sh prints what terms are worth.
+// The unit is an eighth of a joint that comes apart; everything is measured against that. Where each number comes from stands beside it; what the whole is worth, bench_ablation prints.
 #pragma once
 
 #include <optional>
@@ -37,6 +36,9 @@ struct Prices {
   /// A part that nothing follows exactly, off by less than a part at rest may be. Dearer than a translation that fits,
   /// cheaper than a turn: else the pole of a lamp turns with its shade.
   double slightly_off = 0.3;
+  /// A slant, or an edge that bends: a last resort, but better than to tear a joint off. At 3 a whole chest slants rather
+  /// than let one drawer slide out of it.
+  double slant = 5;
   /// An edit of another kind than a hint asks for.
   double against_hint = 30;
   /// Staying at rest in spite of a hint.
@@ -46,7 +48,7 @@ struct Prices {
 };
 
 /// What an edit of this kind costs before anything is known of its relations.
-double price_of_kind(const Candidate& candidate, bool fills);
+double price_of_kind(const Prices& prices, const Candidate& candidate, bool fills);
 
 /// Change of a part's own shape: every axis by the logarithm of its stretch, a thin one more than the longest, so that
 /// legs get longer rather than thicker. `deformed` at an end of the range.

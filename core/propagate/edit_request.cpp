@@ -246,7 +246,8 @@ Status resolve_hints(const EditRequest& request, const Shape& shape, const std::
 
 /// Groups whose instances hang on single instances of a group that is taken apart are taken apart as well: the knobs of
 /// drawers, of which one is pulled. Not those that the request edits as one.
-void dissolve_followers(const Shape& shape, const std::set<RelationIndex>& as_group, std::set<RelationIndex>& dissolved) {
+void dissolve_followers(const Shape& shape, const std::set<RelationIndex>& as_group,
+                        std::set<RelationIndex>& dissolved) {
   const auto group_of_instance = [&](PartIndex part) {
     return shape.parts[part].is_virtual() ? std::nullopt : shape.parts[part].group;
   };

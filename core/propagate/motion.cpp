@@ -50,6 +50,13 @@ Corners radial_field(const Part& parent, const Rotation& group) {
 
 }  // namespace
 
+bool is_too_long(const std::vector<Step>& steps) {
+  for (const Step& step : steps) {
+    if (Amount(step.amount).text().size() > longest_amount) return true;
+  }
+  return false;
+}
+
 Samples sample_points(double low, double high) {
   return {low, 0.78 * low, 0.41 * low, 0.09 * low, 0.09 * high, 0.41 * high, 0.78 * high, high};
 }

@@ -30,6 +30,12 @@ struct Step {
   Samples values{};                ///< amount at the samples
 };
 
+/// Characters of an amount. Longer ones come of turns along a chain of turned parts, double with every link, and are
+/// refused by every reader beyond 4,096; the chains of the gallery need up to 90.
+inline constexpr std::size_t longest_amount = 1'000;
+/// Whether an amount among them, written out, is longer than that.
+bool is_too_long(const std::vector<Step>& steps);
+
 /// Displacements of the 8 corners, from rest, at every sample.
 using Motion = std::array<Corners, sample_count>;
 

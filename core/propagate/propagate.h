@@ -18,6 +18,10 @@
 // 38; with parts taken and distorted parts looked at as said above by 32, and 99.0 instead of 98.6 % of the relations
 // are held.
 //
+// Alternatives, beyond the paper as well (alternatives.h): a rigid motion of everything holds every relation and is no
+// answer, nor are feet in the air or a joint torn for want of sliding. Where the result is like that, a beam with one
+// cost looks for a better one.
+//
 // Groups. The virtual parent of a translation or rotation group stands for its instances, until a seed on one of them,
 // or "disabled", dissolves the group. Its extent follows its neighbours like that of any part; where it must spread
 // along the row (or outwards) the spacing changes and the instances stay as they are: change_delta moves them rigidly,
@@ -28,8 +32,9 @@
 
 #include "core/base/progress.h"
 #include "core/base/tolerance.h"
+#include "core/edit/program.h"
 #include "core/propagate/edit_request.h"
-#include "core/propagate/solve_part.h"
+#include "core/propagate/trace.h"
 
 namespace parsel {
 
@@ -39,7 +44,8 @@ struct PropagateOptions {
   double limit = tau;            ///< the range sought is within ±limit
   bool neighbour_edits = true;   ///< off for the ablation of ParSEL §7.3
   bool breaking_edits = true;    ///< likewise
-  bool beam = true;              ///< likewise: more than one state, and searches in which feet or the body stay
+  bool revisions = true;         ///< likewise: a second look at parts near relations that stay broken
+  bool alternatives = true;      ///< likewise: what a careful person would have done instead
 };
 
 struct Propagation {
@@ -48,7 +54,8 @@ struct Propagation {
 };
 
 /// Deterministic. Fails when the request does not fit the shape (see resolve()), when a seed's amount is undefined at
-/// or near 0, or inverts its own part at once. A shape without relations gives the seed alone, and a trace that says
+/// or near 0, or inverts its own part at once, or when the
+/// program would be larger than its readers take (core/edit/readable.h). A shape without relations gives the seed alone, and a trace that says
 /// why.
 Result<Propagation> propagate(const Shape& shape, const EditRequest& request, const PropagateOptions& options = {},
                               const Progress& progress = {});

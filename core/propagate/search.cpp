@@ -35,13 +35,13 @@ struct State : SearchState {
 
 class Beam {
  public:
-  Beam(const Scene& scene, const std::map<PartIndex, Hint>& hints, const SearchOptions& options,
+  Beam(const Problem& problem, const std::map<PartIndex, Hint>& hints, const SearchOptions& options,
        const Progress& progress)
-      : scene_(scene), shape_(scene.graph.shape()), hints_(hints), options_(options), progress_(progress) {}
+      : problem_(problem), shape_(problem.graph.shape()), hints_(hints), options_(options), progress_(progress) {}
 
   std::optional<SearchState> run(const Edits& seeds, const Restriction& restriction, double limit) {
     std::vector<State> states = {start(seeds, restriction)};
-    const std::size_t parts = std::max<std::size_t>(1, scene_.graph.parts().size());
+    const std::size_t parts = std::max<std::size_t>(1, problem_.graph.parts().size());
     const std::size_t width = std::clamp<std::size_t>(options_.budget / parts, 1, options_.width);
     int round = 0;
     while (!std::all_of(states.begin(), states.end(), [](const State& s) { return s.finished; })) {
@@ -78,7 +78,7 @@ class Beam {
     state.pulls = PartData<std::shared_ptr<const Pulls>>(shape_.parts.size());
     state.urgency = PartData<Urgency>(shape_.parts.size());
     std::vector<PartIndex> edited;
-    for (const PartIndex part : scene_.graph.parts()) {
+    for (const PartIndex part : problem_.graph.parts()) {
       if (seeds[part]) {
         edited.push_back(part);
       } else if (restriction.held.count(part) > 0) {
@@ -90,22 +90,23 @@ class Beam {
     // What the seeds and the held parts break between them is the same in every state, but not under every restriction.
     for (const PartIndex part : edited) {
       Pulls constraints;
-      for (const RelationIndex relation : scene_.graph.relations(part)) {
-        const PartIndex other = scene_.graph.other(relation, part);
-        if (other < part && state.edits[other]) add_constraints(scene_.graph, relation, part, state.edits, constraints);
+      for (const RelationIndex relation : problem_.graph.relations(part)) {
+        const PartIndex other = problem_.graph.other(relation, part);
+        if (other < part && state.edits[other])
+          add_constraints(problem_.graph, relation, part, state.edits, constraints);
       }
-      state.loss += price_of_relations(scene_, state.edits, part, constraints, state.edits[part]->motion);
+      state.loss += price_of_relations(problem_, state.edits, part, constraints, state.edits[part]->motion);
     }
     state.cost = state.loss;
     return state;
   }
 
   void pull_neighbours(State& state, PartIndex part) const {
-    for (const RelationIndex relation : scene_.graph.relations(part)) {
-      const PartIndex other = scene_.graph.other(relation, part);
+    for (const RelationIndex relation : problem_.graph.relations(part)) {
+      const PartIndex other = problem_.graph.other(relation, part);
       if (state.edits[other]) continue;
       auto pulls = state.pulls[other] ? std::make_shared<Pulls>(*state.pulls[other]) : std::make_shared<Pulls>();
-      add_constraints(scene_.graph, relation, other, state.edits, *pulls);
+      add_constraints(problem_.graph, relation, other, state.edits, *pulls);
       Urgency urgency{false, 0};
       for (const auto& [index, by] : residuals(*pulls, still())) {
         if (by <= exact) continue;
@@ -124,7 +125,7 @@ class Beam {
 
   std::optional<PartIndex> next_part(const State& state) const {
     std::optional<PartIndex> best;
-    for (const PartIndex part : scene_.graph.parts()) {
+    for (const PartIndex part : problem_.graph.parts()) {
       const Urgency& urgency = state.urgency[part];
       if (state.edits[part] || urgency.second == 0) continue;
       const auto alone = state.left_alone.find(part);
@@ -150,7 +151,7 @@ class Beam {
       trace.pulled_by.push_back({shape_.relations[relation].id, by});
       slightly = slightly && by <= delta_one_edited;
     }
-    std::vector<Proposal> proposals = propose(scene_, state.edits, part, hint, constraints, trace);
+    std::vector<Proposal> proposals = propose(problem_, state.edits, part, hint, constraints, trace);
     for (std::size_t i = 1; i < proposals.size() && i <= 3; ++i)
       trace.runners_up.push_back({proposals[i].source, 0, 0, proposals[i].cost});
     if (proposals.size() > width) proposals.resize(width);
@@ -158,7 +159,7 @@ class Beam {
       State child = state;
       const auto alone = child.left_alone.find(part);
       const double before = alone == child.left_alone.end() ? 0 : alone->second.cost;
-      const double loss = price_of_relations(scene_, state.edits, part, constraints, proposal.motion);
+      const double loss = price_of_relations(problem_, state.edits, part, constraints, proposal.motion);
       child.cost += proposal.cost - before;
       child.loss += loss - before;
       const bool left_alone = proposal.rest && slightly;
@@ -175,7 +176,7 @@ class Beam {
     }
   }
 
-  const Scene& scene_;
+  const Problem& problem_;
   const Shape& shape_;
   const std::map<PartIndex, Hint>& hints_;
   SearchOptions options_;
@@ -184,10 +185,10 @@ class Beam {
 
 }  // namespace
 
-std::optional<SearchState> search(const Scene& scene, const Edits& seeds, const std::map<PartIndex, Hint>& hints,
+std::optional<SearchState> search(const Problem& problem, const Edits& seeds, const std::map<PartIndex, Hint>& hints,
                                   const Restriction& restriction, const SearchOptions& options, double limit,
                                   const Progress& progress) {
-  return Beam(scene, hints, options, progress).run(seeds, restriction, limit);
+  return Beam(problem, hints, options, progress).run(seeds, restriction, limit);
 }
 
 }  // namespace parsel

@@ -13,7 +13,7 @@
 
 #include "core/base/progress.h"
 #include "core/propagate/edit_request.h"
-#include "core/propagate/solve_part.h"
+#include "core/propagate/proposals.h"
 
 namespace parsel {
 
@@ -47,7 +47,7 @@ struct SearchOptions {
 
 /// The cheapest state found from `seeds`, the edits of the seed parts; nothing when all are dearer than `limit`.
 /// Deterministic. Progress names the part looked at.
-std::optional<SearchState> search(const Scene& scene, const Edits& seeds, const std::map<PartIndex, Hint>& hints,
+std::optional<SearchState> search(const Problem& problem, const Edits& seeds, const std::map<PartIndex, Hint>& hints,
                                   const Restriction& restriction, const SearchOptions& options, double limit,
                                   const Progress& progress);
 

@@ -54,14 +54,14 @@ void compare(Totals& totals, const Program& program, const Program& full, const 
 
 struct Variant {
   const char* name;
-  bool neighbour_edits, breaking_edits, beam;
+  bool neighbour_edits, breaking_edits, revisions;
   Totals gallery, furniture;
 
   Program run(const Shape& shape, const EditRequest& request) const {
     PropagateOptions options;
     options.neighbour_edits = neighbour_edits;
     options.breaking_edits = breaking_edits;
-    options.beam = beam;
+    options.revisions = revisions;
     auto found = propagate(shape, request, options);
     if (!found.ok()) {
       std::fprintf(stderr, "%s: %s\n", shape.name.c_str(), found.error().message().c_str());

@@ -348,7 +348,7 @@ TEST_CASE("a second look stretches a panel rather than the legs beside it out of
     return state.parts[part].col(0).maxCoeff() - state.parts[part].col(0).minCoeff();
   };
   PropagateOptions once;
-  once.beam = false;
+  once.revisions = false;
   CHECK(width(run(s.shape(), {{"seed", {widen}}}, once), left) > 0.3);
   const Propagation found = run(s.shape(), {{"seed", {widen}}});
   CHECK(width(found, left) == doctest::Approx(0.12));

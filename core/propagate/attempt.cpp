@@ -1,0 +1,37 @@
+#include "core/propagate/attempt.h"
+
+#include "core/prove/prove.h"
+#include "core/prove/range.h"
+
+namespace parsel {
+
+Propagation finished(const Shape& shape, const ResolvedRequest& request, const PropagateOptions& options,
+                     const Samples& at, Layer layer, Trace trace, const Progress& progress) {
+  Propagation result;
+  result.program.shape_name = shape.name;
+  result.program.shape_sha256 = shape.sha256;
+  layer.parameter = {options.parameter, at.front(), at.back(), 0};
+  result.program.layers.push_back(std::move(layer));
+  Layer& made = result.program.layers[0];
+  report(progress, "finding the range", 0, 2);
+  const Range range = find_range(shape, result.program, 0, options.limit);
+  made.parameter.min = range.min;
+  made.parameter.max = range.max;
+  const auto id = [&](RelationIndex relation) { return shape.relations[relation].id; };
+  std::set<std::string> disabled;
+  for (const RelationIndex relation : request.disabled) disabled.insert(id(relation));
+  report(progress, "proving the relations", 1, 2);
+  made.relations = prove_relations(shape, result.program, 0, disabled);
+
+  trace.parameter = options.parameter;
+  trace.samples.assign(at.begin(), at.end());
+  trace.exact = exact;
+  trace.one_edited = delta_one_edited;
+  trace.both_edited = delta_both_edited;
+  for (const RelationIndex relation : request.dissolved) trace.dissolved.push_back(id(relation));
+  trace.disabled.assign(disabled.begin(), disabled.end());
+  result.trace = std::move(trace);
+  return result;
+}
+
+}  // namespace parsel
