@@ -105,8 +105,8 @@ class Amount {
   /// Coefficients that are within `tolerance` of a simple rational, rational multiple of π or square root are put
   /// exactly on it, others are rounded to a tenth of it, and terms with a coefficient smaller than it are dropped:
   /// 0.4999871*x1 + 1.2e-7 → 0.5*x1. How simple a number must be depends on the tolerance, so that few numbers are near
-  /// one by chance. `tolerance` > 0.
-  Amount simplified(double tolerance) const;
+  /// one by chance. `tolerance` > 0. Multiples of π only where `is_angle`: a length that is near one is so by chance.
+  Amount simplified(double tolerance, bool is_angle) const;
   /// Code that reads parameter names[i] from parameters[i]. Every parameter that occurs must be in `names`.
   CompiledAmount compile(const std::vector<std::string>& names) const;
 

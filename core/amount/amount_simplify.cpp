@@ -70,15 +70,24 @@ ex rounded(double value, double tolerance) {
   return inexact(value);
 }
 
-ex snapped(double value, double tolerance) {
+/// What numbers are put on.
+struct Grid {
+  double tolerance = 0;
+  bool is_angle = false;  ///< multiples of π as well: 0.3927 is π/8 as an angle, and no more than 0.3927 as a length
+};
+
+ex snapped(double value, const Grid& grid) {
+  const double tolerance = grid.tolerance;
   if (std::abs(value) <= tolerance) return 0;
   if (const auto fraction = near_fraction(value, tolerance)) return *fraction;
-  if (const auto angle = near_angle(value, tolerance)) return *angle;
+  if (grid.is_angle) {
+    if (const auto angle = near_angle(value, tolerance)) return *angle;
+  }
   if (const auto root = near_root(value, tolerance)) return *root;
   return rounded(value, tolerance);
 }
 
-ex simplify(const ex& e, double tolerance);
+ex simplify(const ex& e, const Grid& grid);
 
 bool is_constant(const ex& e) {
   if (is_a<GiNaC::symbol>(e)) return false;
@@ -89,7 +98,7 @@ bool is_constant(const ex& e) {
 }
 
 /// A coefficient with a π or a root in it comes from exact algebra and stays, unless all of it is tiny.
-ex simplify_product(const ex& e, double tolerance) {
+ex simplify_product(const ex& e, const Grid& grid) {
   double coefficient = 1;
   double constants = 1;
   ex rest = 1;
@@ -100,11 +109,11 @@ ex simplify_product(const ex& e, double tolerance) {
     } else if (is_constant(factor)) {
       constants *= Amount(factor).compile({})(nullptr);
     } else {
-      rest = rest * simplify(factor, tolerance);
+      rest = rest * simplify(factor, grid);
     }
   }
-  if (std::abs(coefficient * constants) <= tolerance) return 0;
-  if (constants == 1) return coefficient == 1 ? rest : snapped(coefficient, tolerance) * rest;
+  if (std::abs(coefficient * constants) <= grid.tolerance) return 0;
+  if (constants == 1) return coefficient == 1 ? rest : snapped(coefficient, grid) * rest;
   ex exact = 1;
   for (std::size_t i = 0; i < e.nops(); ++i) {
     if (is_constant(e.op(i))) exact = exact * e.op(i);
@@ -113,31 +122,31 @@ ex simplify_product(const ex& e, double tolerance) {
 }
 
 /// Exponents stay, and so does a base that would vanish.
-ex simplify_power(const ex& e, double tolerance) {
+ex simplify_power(const ex& e, const Grid& grid) {
   if (is_a<numeric>(e.op(0))) return e;
-  const ex base = simplify(e.op(0), tolerance);
+  const ex base = simplify(e.op(0), grid);
   return base.is_zero() ? e : pow(base, e.op(1));
 }
 
-ex simplify(const ex& e, double tolerance) {
-  if (is_a<numeric>(e)) return snapped(ex_to<numeric>(e).to_double(), tolerance);
-  if (is_a<GiNaC::mul>(e)) return simplify_product(e, tolerance);
-  if (is_a<GiNaC::power>(e)) return simplify_power(e, tolerance);
+ex simplify(const ex& e, const Grid& grid) {
+  if (is_a<numeric>(e)) return snapped(ex_to<numeric>(e).to_double(), grid);
+  if (is_a<GiNaC::mul>(e)) return simplify_product(e, grid);
+  if (is_a<GiNaC::power>(e)) return simplify_power(e, grid);
   if (e.nops() == 0) return e;
   struct Inside : GiNaC::map_function {
-    double tolerance = 0;
-    ex operator()(const ex& operand) override { return simplify(operand, tolerance); }
+    Grid grid;
+    ex operator()(const ex& operand) override { return simplify(operand, grid); }
   };
   Inside inside;
-  inside.tolerance = tolerance;
+  inside.grid = grid;
   return e.map(inside);
 }
 
 }  // namespace
 
-Amount Amount::simplified(double tolerance) const {
+Amount Amount::simplified(double tolerance, bool is_angle) const {
   PARSEL_ASSERT(tolerance > 0, "a tolerance is positive");
-  return Amount(simplify(expression_, tolerance));
+  return Amount(simplify(expression_, Grid{tolerance, is_angle}));
 }
 
 }  // namespace parsel

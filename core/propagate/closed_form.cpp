@@ -110,10 +110,11 @@ std::optional<ClosedForm> AmountSolver::shorten(double factor, const ClosedForm&
                                                 const Samples& wanted) const {
   // Only the factor: the drive is as short as it can be, and the place of its jumps must not move.
   const double reach = candidate.field.cwiseAbs().maxCoeff();
+  const bool is_angle = candidate.what.op == Op::rotate;
   const ex exact_factor = number(factor);
   std::vector<ex> factors;
   for (const double tolerance : {1e-3, 1e-5, 1e-8})
-    factors.push_back(Amount(exact_factor).simplified(tolerance).expression());
+    factors.push_back(Amount(exact_factor).simplified(tolerance, is_angle).expression());
   factors.push_back(exact_factor);
   for (const ex& simple : factors) {
     const double value = Amount(simple).compile({})(nullptr);
@@ -132,13 +133,14 @@ std::optional<ClosedForm> AmountSolver::accept(const ex& expression, const Candi
   // The plainest form that moves no point noticeably; lever and field are both per unit of the amount. Rounding must
   // not move anything at rest: a difference that vanishes at 0, like pi/2 - atan2(…), would no longer do so.
   const double reach = candidate.field.cwiseAbs().maxCoeff();
+  const bool is_angle = candidate.what.op == Op::rotate;
   const auto at_rest = [&](const ex& form) {
     const double zero = 0;
     return std::abs(Amount(form).compile({parameter_})(&zero));
   };
   const double rest_slack = std::max(at_rest(expression), 1e-7);
   for (const double tolerance : {1e-3, 1e-5, 1e-8}) {
-    const ex simple = Amount(expression).simplified(tolerance).expression();
+    const ex simple = Amount(expression).simplified(tolerance, is_angle).expression();
     if (!simple.has(parameter_symbol(parameter_)) || !(at_rest(simple) <= rest_slack)) continue;
     const auto values = sampled(simple, parameter_, at_);
     if (values && largest_difference(*values, wanted) * reach <= simplification_slack)

@@ -1,0 +1,126 @@
+#include "core/propagate/alternatives.h"
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "box_shapes.h"
+#include "core/check/check.h"
+#include "core/edit/evaluate.h"
+#include "core/propagate/propagate.h"
+
+using namespace parsel;
+using nlohmann::json;
+
+namespace {
+
+Propagation run(const Shape& shape, const json& edit, bool alternatives = true) {
+  const auto request = edit_request_from_json(edit);
+  if (!request.ok()) FAIL(request.error().message());
+  PropagateOptions options;
+  options.alternatives = alternatives;
+  auto found = propagate(shape, *request, options);
+  if (!found.ok()) FAIL(found.error().message());
+  const CheckReport checked = check_program(shape, found->program, to_json(found->trace), 0);
+  for (const Finding& finding : checked.findings) FAIL_CHECK(finding.place << ": " << finding.text);
+  return std::move(found.value());
+}
+
+json move(const std::string& part, const Vec3& direction) {
+  return {{"op", "translate"},
+          {"part", part},
+          {"direction", {direction.x(), direction.y(), direction.z()}},
+          {"amount", "x"}};
+}
+
+/// How far the farthest corner of a part is from where it was, with the slider at 0.2.
+double moved(const Shape& shape, const Propagation& found, PartIndex part) {
+  const State state = Evaluator(found.program, shape)({0.2});
+  return (state.parts[part] - shape.parts[part].hexahedron.corners).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("a seat that is raised stretches its legs and takes its back along; the feet stay on the floor") {
+  const Shape shape = test::chair();
+  const json edit = {{"seed", {move("seat", Vec3::UnitY())}}};
+  const auto part = [&](const char* id) { return *shape.find_part(id); };
+  const Propagation found = run(shape, edit);
+  const State state = Evaluator(found.program, shape)({0.2});
+  for (const char* leg : {"leg_front_left", "leg_front_right", "leg_back_left", "leg_back_right"}) {
+    CHECK(state.parts[part(leg)].col(1).minCoeff() == doctest::Approx(-0.65));
+    CHECK(state.parts[part(leg)].col(1).maxCoeff() == doctest::Approx(0.15));
+  }
+  CHECK(moved(shape, found, part("back")) == doctest::Approx(0.2));
+
+  SUBCASE("without them the whole chair leaves the floor") {
+    const Propagation without = run(shape, edit, false);
+    const State flying = Evaluator(without.program, shape)({0.2});
+    CHECK(flying.parts[part("leg_front_left")].col(1).minCoeff() == doctest::Approx(-0.45));
+  }
+}
+
+TEST_CASE("a drawer that is pulled comes out of its chest with its knob; the chest stays") {
+  test::BoxShape s;
+  const PartIndex left = s.box("side_left", {0.53, 0, 0}, {0.03, 0.5, 0.4});
+  const PartIndex right = s.box("side_right", {-0.53, 0, 0}, {0.03, 0.5, 0.4});
+  const PartIndex top = s.box("top", {0, 0.53, 0}, {0.56, 0.03, 0.4});
+  const PartIndex drawer = s.box("drawer", {0, 0, 0}, {0.5, 0.2, 0.4});
+  const PartIndex knob = s.box("knob", {0, 0, 0.43}, {0.04, 0.04, 0.03});
+  s.attach(top, left, {{0.53, 0.5, -0.4}, {0.53, 0.5, 0.4}});
+  s.attach(top, right, {{-0.53, 0.5, -0.4}, {-0.53, 0.5, 0.4}});
+  s.attach(drawer, left, {{0.5, 0, -0.4}, {0.5, 0, 0.4}});
+  s.attach(drawer, right, {{-0.5, 0, -0.4}, {-0.5, 0, 0.4}});
+  s.attach(knob, drawer, {{0, 0, 0.4}});
+  const Shape& shape = s.shape();
+  const Propagation found = run(shape, {{"seed", {move("drawer", Vec3::UnitZ())}}});
+  CHECK(moved(shape, found, drawer) == doctest::Approx(0.2));
+  CHECK(moved(shape, found, knob) == doctest::Approx(0.2));
+  for (const PartIndex part : {left, right, top}) CHECK(moved(shape, found, part) == 0);
+}
+
+TEST_CASE("what holds every relation and the floor is left as the greedy search found it") {
+  const Shape shape = test::chair();
+  const json wider = {{"op", "scale_1d"},
+                      {"part", "seat"},
+                      {"origin", {{"part", "seat"}, {"at", {0, 0, 0}}}},
+                      {"direction", {1, 0, 0}},
+                      {"amount", "x"}};
+  const json edit = {{"seed", {wider}}};
+  const Propagation with = run(shape, edit);
+  const Propagation without = run(shape, edit, false);
+  CHECK(to_json(with.program) == to_json(without.program));
+}
+
+TEST_CASE("a hint to move a part moves it as it is, and stretches nothing") {
+  const Shape shape = test::chair();
+  const PartIndex seat = *shape.find_part("seat");
+  const json stretched = {{"op", "scale_1d"},
+                          {"part", "back"},
+                          {"origin", {{"part", "back"}, {"at", {0, 1, 0}}}},
+                          {"direction", {0, 1, 0}},
+                          {"amount", "x"}};
+  const Propagation found = run(shape, {{"seed", {stretched}}, {"hints", {{"seat", "translate"}}}});
+  const State state = Evaluator(found.program, shape)({0.2});
+  const Corners& rest = shape.parts[seat].hexahedron.corners;
+  CHECK(state.parts[seat].col(1).maxCoeff() - state.parts[seat].col(1).minCoeff() ==
+        doctest::Approx(rest.col(1).maxCoeff() - rest.col(1).minCoeff()));
+}
+
+TEST_CASE("contacts: a box on another is across their common face, slides, comes off and enters") {
+  const auto box = [](const Vec3& centre, const Vec3& half) {
+    return make_box(centre, Mat3::Identity(), half).corners;
+  };
+  const Corners table = box({0, 0, 0}, {0.5, 0.1, 0.5}), cup = box({0, 0.2, 0}, {0.1, 0.1, 0.1});
+  const auto contact = contact_of(cup, table);
+  REQUIRE(contact.has_value());
+  CHECK(contact->distance == doctest::Approx(0));
+  const auto moved_by = [&](const Vec3& by) { return change_of(*contact, cup.rowwise() + by.transpose(), table); };
+  CHECK(moved_by({0.3, 0, 0.1}).apart == doctest::Approx(0));
+  CHECK(moved_by({0.3, 0, 0.1}).lost == doctest::Approx(0));
+  CHECK(moved_by({0.5, 0, 0}).lost == doctest::Approx(0.5));
+  CHECK(moved_by({0.7, 0, 0}).lost == doctest::Approx(1));
+  CHECK(moved_by({0, 0.05, 0}).apart == doctest::Approx(0.05));
+  CHECK(moved_by({0, -0.05, 0}).apart == doctest::Approx(-0.05));
+  CHECK(!contact_of(table, box({0, 0, 0}, {0.4, 0.08, 0.4})).has_value());
+}
