@@ -24,7 +24,7 @@ const rooms = {
     rule: 'worker is the way to the core and back; of the page it knows the type of a file alone',
   },
   llm: {
-    may: ['program/json', 'worker/protocol'],
+    may: ['program/json', 'program/cut', 'worker/protocol'],
     packages: ['@preact/signals', 'valibot', 'idb-keyval'],
     rule: 'llm asks language models; what prompts and replies mean is the business of the core and the session',
   },
