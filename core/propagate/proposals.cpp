@@ -210,6 +210,7 @@ class Proposer {
 
   void fit_all(const std::vector<Candidate>& candidates, std::size_t subset) {
     const Subset& to = subsets_[subset];
+    problem_.work += candidates.size();
     for (const Candidate& candidate : candidates) {
       const double price = price_of_kind(problem_.options.prices, candidate, fills_) + hint_price(candidate, nullptr);
       if (price >= limit()) continue;
@@ -254,6 +255,7 @@ class Proposer {
         const double total = price + hint_price(first, second);
         if (total >= limit()) continue;
         ++trace_.pairs;
+        ++problem_.work;
         const auto found = fit_pair(first, *second, to.rows, to.tolerance);
         if (!found) continue;
         ++trace_.survivors;

@@ -42,9 +42,10 @@ class Beam {
   std::optional<SearchState> run(const Edits& seeds, const Restriction& restriction, double limit) {
     std::vector<State> states = {start(seeds, restriction)};
     const std::size_t parts = std::max<std::size_t>(1, problem_.graph.parts().size());
-    const std::size_t width = std::clamp<std::size_t>(options_.budget / parts, 1, options_.width);
+    const std::size_t width = std::clamp<std::size_t>(options_.looks / parts, 1, options_.width);
     int round = 0;
     while (!std::all_of(states.begin(), states.end(), [](const State& s) { return s.finished; })) {
+      if (problem_.work > options_.work) return std::nullopt;
       std::vector<State> next;
       for (State& state : states) {
         const auto part = state.finished ? std::nullopt : next_part(state);

@@ -42,10 +42,12 @@ struct Restriction {
 struct SearchOptions {
   std::size_t width = 4;  ///< states kept in a round
   /// How many parts may be looked at in all, over all states: wide beams on large models become narrow.
-  std::size_t budget = 400;
+  std::size_t looks = 120;
+  /// Problem::work at which the search gives up. Work, not time: the same input gives the same program everywhere.
+  std::size_t work = 0;
 };
 
-/// The cheapest state found from `seeds`, the edits of the seed parts; nothing when all are dearer than `limit`.
+/// The cheapest state found from `seeds`, the edits of the seed parts; nothing when all are dearer than `limit`, or when the work is used up.
 /// Deterministic. Progress names the part looked at.
 std::optional<SearchState> search(const Problem& problem, const Edits& seeds, const std::map<PartIndex, Hint>& hints,
                                   const Restriction& restriction, const SearchOptions& options, double limit,
