@@ -235,19 +235,19 @@ class Alternatives : public Attempt {
   }
 
   /// Whether every part moves, and all by one rigid motion: nothing has changed but the place. Not where all parts are
-  /// seeds.
+  /// seeds or have a hint: then it was asked for.
   bool moves_as_one(const Edits& edits) const {
     const PartIndex* first = nullptr;
-    bool all_seeds = true;
+    bool all_asked = true;
     std::size_t tied = 0;
     for (const PartIndex& part : graph_.parts()) {
       if (graph_.relations(part).empty() && !is_seed(part)) continue;
       ++tied;
       if (!edits[part] || edits[part]->steps.empty()) return false;
-      all_seeds = all_seeds && is_seed(part);
+      all_asked = all_asked && (is_seed(part) || request_.hints.count(part) > 0);
       if (first == nullptr) first = &part;
     }
-    if (first == nullptr || all_seeds || tied < 2) return false;
+    if (first == nullptr || all_asked || tied < 2) return false;
     for (const std::size_t s : {std::size_t{0}, sample_count - 1}) {
       const Corners& rest = shape_.parts[*first].hexahedron.corners;
       const auto [rotation, shift] = rigid_motion(rest, rest + edits[*first]->motion[s]);

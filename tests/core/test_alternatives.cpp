@@ -7,6 +7,7 @@
 #include "box_shapes.h"
 #include "core/check/check.h"
 #include "core/edit/evaluate.h"
+#include "core/propagate/contact.h"
 #include "core/propagate/propagate.h"
 
 using namespace parsel;

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "core/base/random.h"
+#include "core/base/text.h"
 #include "core/edit/program_fields.h"
 #include "core/edit/readable.h"
 #include "hand_shapes.h"

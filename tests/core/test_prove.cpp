@@ -230,7 +230,8 @@ TEST_CASE("the joint of an instance is judged as long as the instance exists") {
   // The number changes at x = 0.2 and at x = 0⁻; until then the blades leave the motor by 0.3·x.
   const Program program = hand::program(shape, {hand::group_statement(Op::change_delta, "o1", "x1", Anchor::fit),
                                                 hand::group_statement(Op::change_count, "o1", "5*x1", Anchor::fit)});
-  const RelationReport& report = find(prove(shape, program), "a2");
+  const std::vector<RelationReport> reports = prove(shape, program);
+  const RelationReport& report = find(reports, "a2");
   CHECK(report.status == broken);
   CHECK(report.worst == doctest::Approx(0.3 * 0.2).epsilon(0.01));
 
