@@ -55,7 +55,7 @@ describe.each(scripts)('$name', ({ request, parts }) => {
       names: parts.map((name, i) => [`part_${i}`, name]),
       labels: parts.map((name, i) => [`node:${i}/0`, name]),
     };
-    expect(await readFragment(await fragmentOf(saved))).toEqual({ ok: true, saved });
+    expect(await readFragment(await fragmentOf(saved))).toEqual({ ok: true, saved, lost: [] });
   });
 
   it('comes back from the text form as it was', () => {
