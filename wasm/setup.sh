@@ -23,7 +23,6 @@ git git
 /etc/ssl/certs/ca-certificates.crt ca-certificates
 /usr/include/eigen3/Eigen/Core libeigen3-dev
 /usr/include/nlohmann/json.hpp nlohmann-json3-dev
-/usr/include/tiny_gltf.h libtinygltf-dev
 /usr/include/doctest/doctest.h doctest-dev"
 native_needs="/usr/include/ginac/ginac.h libginac-dev
 /usr/include/cln/cln.h libcln-dev"

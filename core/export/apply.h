@@ -2,7 +2,7 @@
 //
 // What changes: positions, normals, tangents and morph target deltas of edited parts, the bounds of their accessors,
 // `byteLength` of buffer 0 when data is appended, nodes that a changed count adds or removes. Every other byte of the
-// JSON and the binary chunk stays, white space and spelling of numbers included (core/edit/apply_json.h). When nothing
+// JSON and the binary chunk stays, white space and spelling of numbers included (core/gltf/json_text.h). When nothing
 // is edited, a GLB comes back byte for byte.
 //
 // What is kept with a warning: skinned and GPU-instanced nodes (left unedited), animations that move an edited node
@@ -10,13 +10,13 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/edit/evaluate.h"
+#include "core/gltf/document.h"
 #include "core/shape/shape.h"
 
 namespace parsel {
@@ -34,7 +34,7 @@ struct ApplyOptions {
   /// stands for its instances.
   std::vector<PartIndex> only_parts;
   /// Buffers and images that a .gltf names, by URI.
-  std::map<std::string, std::string, std::less<>> external;
+  ExternalBuffers external;
 };
 
 struct Applied {

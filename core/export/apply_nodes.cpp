@@ -12,6 +12,8 @@ using gltf::JsonText;
 
 /// Corners that differ by no more than this are at rest.
 constexpr double at_rest = 1e-12;
+/// Cages with corners further out have no place in a file of floats, which end at 3.4e38.
+constexpr double largest_corner = 1e37;
 /// A new instance is a moved copy when its corners are that of one to numerical noise.
 constexpr double moved_copy = 1e-7;
 
@@ -46,7 +48,6 @@ class Planner {
       }
       out.nodes.push_back(std::move(edit));
     }
-    warn_of_animations(out.nodes);
     return out;
   }
 
@@ -59,17 +60,22 @@ class Planner {
     return all;
   }
 
+  /// Whether the cage fits the floats of a file, in model units.
+  bool fits_floats(const Corners& corners) const {
+    return (corners * shape_.frame.scale).cwiseAbs().maxCoeff() <= largest_corner;
+  }
+
   Status check_states() const {
     for (const State* state : all_states()) {
       if (state->parts.size() != shape_.parts.size() || state->groups.size() != shape_.relations.size()) {
         return refusal("state", "it does not belong to the shape");
       }
       for (const Corners& corners : state->parts) {
-        if (!corners.allFinite()) return refusal("state", "a corner is not a finite number");
+        if (!fits_floats(corners)) return refusal("state", "a corner is not a number that a file can hold");
       }
       for (const GroupState& group : state->groups) {
         for (const Corners& corners : group.instances) {
-          if (!corners.allFinite()) return refusal("state", "a corner is not a finite number");
+          if (!fits_floats(corners)) return refusal("state", "a corner is not a number that a file can hold");
         }
       }
     }
@@ -257,32 +263,14 @@ class Planner {
         slot.samples.clear();
         continue;
       }
-      const bool possible =
-          make_cage_map(shape_.frame, slot.rest, edit.rest_world, slot.shown, scene_.world[edit.node], slot.moves)
-              .has_value();
+      const auto map =
+          make_cage_map(shape_.frame, slot.rest, edit.rest_world, slot.shown, scene_.world[edit.node], slot.moves);
+      const bool possible = map && map->corners.cwiseAbs().maxCoeff() <= largest_corner;
       if (possible && why == nullptr) continue;
-      warnings_.push_back({"part " + slot.part, possible ? why : "left as it was: the transform of its node is flat"});
+      warnings_.push_back(
+          {"part " + slot.part, possible ? why : "left as it was: the transform of its node is too flat"});
       slot.moves = slot.hidden = false;
       slot.samples.clear();
-    }
-  }
-
-  void warn_of_animations(const std::vector<NodeEdit>& edits) {
-    std::set<std::size_t> animated;
-    for (std::size_t a = 0; a < file_.size("animations"); ++a) {
-      const JsonText& channels = file_.item("animations", a).get("channels");
-      for (std::size_t c = 0; c < channels.size(); ++c) {
-        if (const auto node = channels.item(c).get("target").get("node").index()) animated.insert(*node);
-      }
-    }
-    if (animated.empty()) return;
-    for (const NodeEdit& edit : edits) {
-      const bool moves = std::any_of(edit.slots.begin(), edit.slots.end(), [](const Slot& s) { return s.moves; });
-      std::optional<std::size_t> at = edit.node;
-      while (moves && at && animated.count(*at) == 0) at = scene_.parent[*at];
-      if (!moves || !at) continue;
-      warnings_.push_back({"node " + std::to_string(edit.node),
-                           "the file's own animations go on moving it; the edit was made in the pose at rest"});
     }
   }
 
