@@ -5,8 +5,11 @@
 // JSON and the binary chunk stays, white space and spelling of numbers included (core/gltf/json_text.h). When nothing
 // is edited, a GLB comes back byte for byte.
 //
-// What is kept with a warning: skinned and GPU-instanced nodes (left unedited), animations that move an edited node
-// (they go on moving it, edited).
+// Where something hangs on the node of a part that moves as a whole (children without meshes, an animation, a camera, a
+// light), the node's transform says the motion, and vertices stay (apply_carry.h).
+//
+// What is kept with a warning: skinned and GPU-instanced nodes (left unedited), attributes that cannot follow,
+// animations above an edited node (they go on moving it, edited).
 #pragma once
 
 #include <functional>
