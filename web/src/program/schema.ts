@@ -19,6 +19,8 @@ export const limits = {
   statements: 10_000,
   /** Of a layer. */
   reports: 10_000,
+  /** That a sampled report may speak of. */
+  samples: 1_000_000,
   /** That a statement names as its reason. */
   reasons: 256,
   /** Texts are measured in bytes of UTF-8. */
@@ -89,12 +91,19 @@ const parameter = v.strictObject({
   value: finite,
 });
 
-const report = v.strictObject({
-  id: name,
-  status: v.picklist(['held', 'broken', 'disabled']),
-  worst: v.pipe(finite, v.minValue(0)),
-  proof: v.picklist(['certified', 'sampled']),
-});
+const report = v.pipe(
+  v.strictObject({
+    id: name,
+    status: v.picklist(['held', 'broken', 'disabled']),
+    worst: v.pipe(finite, v.minValue(0)),
+    proof: v.picklist(['certified', 'sampled']),
+    samples: v.exactOptional(v.pipe(finite, v.integer(), v.minValue(1), v.maxValue(limits.samples))),
+  }),
+  v.check(
+    ({ proof, samples }) => samples === undefined || proof === 'sampled',
+    'Invalid report: Expected samples of a sampled one only',
+  ),
+);
 
 const layer = v.strictObject({
   request: v.pipe(text, v.maxBytes(limits.requestLength)),
