@@ -59,6 +59,7 @@ Ties ties_of(const Shape& shape, const Program& program, std::size_t layers, con
 }
 
 double tolerance(const Shape& shape, const Relation& relation, const std::set<std::string>& moved) {
+  if (relation.kind == RelationKind::ground) return 0.0144;
   bool all = true;
   for (const PartIndex p : relation.parts) all = all && moved.count(shape.parts[p].id) > 0;
   return relation.is_group() || all ? 0.0433 : 0.0144;

@@ -99,7 +99,10 @@ class TraceChecker {
     }
     replayed_.layers[number_].statements.clear();
     for (const Relation& relation : shape_.relations) {
-      if (relation.is_group() || disabled_.count(relation.id) > 0 || !counts(shape_, relation, dissolved_)) continue;
+      // A trace tells of relations between parts: what one part does by itself pulls at no other.
+      if (relation.parts.size() != 2 || relation.is_group() || disabled_.count(relation.id) > 0 ||
+          !counts(shape_, relation, dissolved_))
+        continue;
       relations_.push_back(&relation);
     }
   }

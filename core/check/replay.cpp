@@ -374,6 +374,14 @@ double deviation_of(const Shape& shape, const Relation& relation, const Scene& s
     }
     return worst;
   }
+  if (const auto* ground = std::get_if<Ground>(&relation.detail)) {
+    const Part& part = shape.parts[relation.parts[0]];
+    const Box rest = box_of(part.hexahedron.corners);
+    for (const Vec3& local : ground->local) {
+      worst = std::max(worst, std::abs(blended(scene.parts.at(part.id), local).y() - blended(rest, local).y()));
+    }
+    return worst;
+  }
   const Part& part_a = shape.parts[relation.parts[0]];
   const Part& part_b = shape.parts[relation.parts[1]];
   const Box& a = scene.parts.at(part_a.id);

@@ -24,6 +24,7 @@ void layout(ModelBuilder& m) {
   const MeshId back_mesh = m.mesh("back", {length, height, back}, paint, rounded_box(0.002, 1));
   const NodeId panel = m.part("back", back_mesh, {0, height / 2, -depth / 2 + recess + overlap - back / 2});
   m.attach({panel}, {left, right}, RelationKind::line);
+  m.stand({left, right, panel});
 
   const MeshId shelf_mesh = m.mesh("shelf", {length, board, depth - 2 * recess}, wood, rounded_box(0.004));
   std::vector<NodeId> shelves;

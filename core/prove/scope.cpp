@@ -58,6 +58,7 @@ Scope scope_of(const Shape& shape, const Program& program, std::size_t layer, co
 double tolerance_of(const Relation& relation, const Scope& scope) {
   const bool all =
       std::all_of(relation.parts.begin(), relation.parts.end(), [&](PartIndex p) { return scope.edited.count(p) > 0; });
+  if (relation.kind == RelationKind::ground) return delta_one_edited;
   return all || relation.is_group() ? delta_both_edited : delta_one_edited;
 }
 

@@ -32,7 +32,7 @@ Scope scope_of(const Shape& shape, const Program& program, std::size_t layer, co
 /// How far a coordinate of the relation's constraint may be off: delta_one_edited (0.025/√3: a distance of 0.025 in
 /// all) when one of its parts is edited, delta_both_edited (0.075/√3) when both are. A part that stays where it is
 /// shows a gap at once and leaves its neighbour no say in it; two parts that move share the error of both edits. A
-/// group and its parent always move together, so they count as both.
+/// group and its parent always move together, so they count as both; the floor never moves.
 double tolerance_of(const Relation& relation, const Scope& scope);
 
 }  // namespace parsel

@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/shape/attachment.h"
 #include "core/shape/gltf_import.h"
+#include "core/shape/ground.h"
 #include "core/shape/group.h"
 #include "core/shape/label.h"
 #include "core/shape/oriented_box.h"
@@ -29,6 +30,7 @@ class Builder {
     add_reflections();
     add_groups();
     add_attachments();
+    add_ground();
   }
 
  private:
@@ -86,8 +88,7 @@ class Builder {
     }
   }
 
-  RelationIndex add(char letter, RelationKind kind, std::vector<PartIndex> parts,
-                    std::variant<Reflection, Translation, Rotation, Attachment> detail) {
+  RelationIndex add(char letter, RelationKind kind, std::vector<PartIndex> parts, decltype(Relation::detail) detail) {
     const std::string id = letter + std::to_string(++count_[letter]);
     return shape_.relations.push_back({id, kind, std::move(parts), std::move(detail)});
   }
@@ -196,6 +197,18 @@ class Builder {
       if (region.empty() && !a_in_b && !b_in_a) continue;
       FoundAttachment found = attach(ha, hb, region, a_in_b, b_in_a);
       add('a', attachment_kind(found.order), {a, b}, std::move(found.attachment));
+    }
+  }
+
+  /// Of every real part that stands on the floor, and of the groups that have one.
+  void add_ground() {
+    const PartData<Footprint> prints = footprints(meshes_);
+    for (const PartIndex p : shape_.parts.indices()) {
+      std::vector<Footprint> own;
+      for (const PartIndex member : shape_.parts[p].members) own.push_back(prints[member]);
+      if (!shape_.parts[p].is_virtual()) own.push_back(prints[p]);
+      if (std::all_of(own.begin(), own.end(), [](const Footprint& print) { return print.empty(); })) continue;
+      add('g', RelationKind::ground, {p}, ground_contact(shape_.parts[p].hexahedron, own));
     }
   }
 

@@ -126,8 +126,6 @@ constexpr double parallel = 0.985;  ///< cos 10°
 /// A region that covers this share of both boxes along an axis ties its ends, symmetric or not; cushions lean.
 constexpr double covering = 0.5;
 constexpr double leaning = 0.866;  ///< cos 30°
-/// Points closer than this would be one point twice.
-constexpr double distinct = 2e-3;
 
 }  // namespace
 
@@ -191,7 +189,7 @@ FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRe
         const bool symmetric = alike > parallel && own[axis] && others[theirs];
         const bool covers = alike > leaning && along[axis].half() > covering * frame.half[i] &&
                             along_other[theirs].half() > covering * other.half[j];
-        if ((symmetric || covers) && along[axis].half() > distinct / 2) shared[axis] = true;
+        if ((symmetric || covers) && along[axis].half() > distinct_points / 2) shared[axis] = true;
       }
     }
   }
@@ -219,6 +217,10 @@ FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRe
     found.attachment.local_b.push_back(snapped_local(box_b, world));
   }
   return found;
+}
+
+Vec3 local_on_features(const Hexahedron& box, const Vec3& point) {
+  return snapped_local(Box(box), point);
 }
 
 RelationKind attachment_kind(int order) {

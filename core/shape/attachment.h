@@ -68,6 +68,12 @@ struct FoundAttachment {
 /// far apart at rest. `a_in_b`, `b_in_a`: contained.
 FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRegion& region, bool a_in_b, bool b_in_a);
 
+/// Points closer than this would be one point twice.
+inline constexpr double distinct_points = 2e-3;
+
+/// Local coordinates of a point, put onto -1, 0 or 1 where they are within snap_distance of them.
+Vec3 local_on_features(const Hexahedron& box, const Vec3& point);
+
 RelationKind attachment_kind(int order);
 
 }  // namespace parsel

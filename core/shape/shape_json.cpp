@@ -2,8 +2,8 @@
 //
 // Relations: {"id","kind","parts":[ids], …} with, for reflection, "origin", "normal", "corner_map"; translation,
 // "parent", "start", "end", "count", "delta", "axis", "direction"; rotation, "parent", "centre", "axis", "parent_axis",
-// "radius", "count", "angle", "arc"; attachments, "points", "local_a", "local_b". A part may have "group": the id of
-// its relation. "count", "delta", "angle" and "arc" follow from the rest and are not read back.
+// "radius", "count", "angle", "arc"; attachments, "points", "local_a", "local_b"; ground, "points", "local". A part may
+// have "group": the id of its relation. "count", "delta", "angle" and "arc" follow from the rest and are not read back.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -110,6 +110,9 @@ json relation_json(const Shape& shape, const Relation& relation) {
     out["points"] = points_json(a->points);
     out["local_a"] = points_json(a->local_a);
     out["local_b"] = points_json(a->local_b);
+  } else if (const auto* g = std::get_if<Ground>(&relation.detail)) {
+    out["points"] = points_json(g->points);
+    out["local"] = points_json(g->local);
   }
   return out;
 }
@@ -189,6 +192,8 @@ class Reader {
           Rotation{part(member(entry, "parent", place), place), vector(member(entry, "centre", place), place),
                    vector(member(entry, "axis", place), place), integer(entry, "parent_axis", place),
                    number(member(entry, "radius", place), place)};
+    } else if (*kind == RelationKind::ground) {
+      relation.detail = Ground{points(entry, "points", place), points(entry, "local", place)};
     } else {
       relation.detail =
           Attachment{points(entry, "points", place), points(entry, "local_a", place), points(entry, "local_b", place)};

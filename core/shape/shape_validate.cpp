@@ -86,9 +86,11 @@ class Validator {
     const std::size_t wanted = relation.kind == RelationKind::reflection    ? 0
                                : relation.kind == RelationKind::translation ? 1
                                : relation.kind == RelationKind::rotation    ? 2
+                               : relation.kind == RelationKind::ground      ? 4
                                                                             : 3;
     if (relation.detail.index() != wanted) return wrong(relation.id, "its fields are not those of its kind");
     if (relation.is_group()) return check_group(index);
+    if (relation.kind == RelationKind::ground) return check_ground(relation);
     if (relation.parts.size() != 2) return wrong(relation.id, "it does not join two parts");
     return relation.kind == RelationKind::reflection ? check_reflection(relation) : check_attachment(relation);
   }
@@ -176,6 +178,21 @@ class Validator {
                    off_b = (hb.point(a.local_b[i]) - a.points[i]).norm();
       if (!(off_a <= attachment_slack) || !(off_b <= attachment_slack)) {
         return wrong(relation.id, "point " + std::to_string(i) + " is not where its parts have it at rest");
+      }
+    }
+    return success();
+  }
+
+  Status check_ground(const Relation& relation) const {
+    const Ground& ground = std::get<Ground>(relation.detail);
+    if (relation.parts.size() != 1) return wrong(relation.id, "one part stands on the floor");
+    if (ground.points.empty() || ground.points.size() > 4 || ground.local.size() != ground.points.size()) {
+      return wrong(relation.id, "it has not 1 to 4 points, each with local coordinates");
+    }
+    const Hexahedron& h = shape_.parts[relation.parts[0]].hexahedron;
+    for (std::size_t i = 0; i < ground.points.size(); ++i) {
+      if (!((h.point(ground.local[i]) - ground.points[i]).norm() <= attachment_slack)) {
+        return wrong(relation.id, "point " + std::to_string(i) + " is not where its part has it at rest");
       }
     }
     return success();

@@ -90,8 +90,15 @@ export interface AttachmentRelation extends RelationBase {
   readonly local_a: readonly Vec3[];
   readonly local_b: readonly Vec3[];
 }
+/** Its one part stands on the floor: these points keep their height. */
+export interface GroundRelation extends RelationBase {
+  readonly kind: 'ground';
+  readonly points: readonly Vec3[];
+  /** The same points in local coordinates of the part. */
+  readonly local: readonly Vec3[];
+}
 export type GroupRelation = TranslationRelation | RotationRelation;
-export type ShapeRelation = ReflectionRelation | GroupRelation | AttachmentRelation;
+export type ShapeRelation = ReflectionRelation | GroupRelation | AttachmentRelation | GroundRelation;
 
 export interface Shape {
   readonly format: 'parsel/shape';
