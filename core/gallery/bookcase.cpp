@@ -24,7 +24,6 @@ void layout(ModelBuilder& m) {
   const MeshId back_mesh = m.mesh("back", {length, height, back}, paint, rounded_box(0.002, 1));
   const NodeId panel = m.part("back", back_mesh, {0, height / 2, -depth / 2 + recess + overlap - back / 2});
   m.attach({panel}, {left, right}, RelationKind::line);
-  m.stand({left, right, panel});
 
   const MeshId shelf_mesh = m.mesh("shelf", {length, board, depth - 2 * recess}, wood, rounded_box(0.004));
   std::vector<NodeId> shelves;
@@ -34,6 +33,7 @@ void layout(ModelBuilder& m) {
   }
   const Side row = m.translation(shelves);
   m.attach({row}, {left, right, panel}, RelationKind::face);
+  m.stand({left, right, panel, row});
 
   const double spacing = (height - board) / (count - 1);
   m.edit({"widen", "Widen the bookcase.", {seed_scale_1d(panel, Vec3::UnitX())}, {}, {}}, [=](double x) {

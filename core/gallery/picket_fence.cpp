@@ -24,7 +24,6 @@ void layout(ModelBuilder& m) {
   m.reflect(0, {{cap_left, cap_right}});
   m.attach(left, cap_left, RelationKind::face);
   m.attach(right, cap_right, RelationKind::face);
-  m.stand({left, right});
 
   const double rail_height = m["rail_height"], rail = 0.03, length = 2 * (post_x - post / 2 + overlap);
   const MeshId rail_mesh = m.mesh("rail", {length, rail_height, rail}, paint, rounded_box(0.004));

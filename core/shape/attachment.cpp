@@ -62,7 +62,7 @@ void clip_surface(const PartMesh& mesh, const Box& box, double distance, Contact
     if (polygon.size == 0) continue;
     for (std::size_t i = 0; i < polygon.size; ++i) {
       polygon.corners[i] = box.to_world(polygon.corners[i].cwiseMin(box.half).cwiseMax(-box.half));
-      region.vertices.push_back(polygon.corners[i]);
+      region.add(polygon.corners[i]);
     }
     for (std::size_t i = 1; i + 1 < polygon.size; ++i) {
       const Vec3 &a = polygon.corners[0], &b = polygon.corners[i], &c = polygon.corners[i + 1];
@@ -129,8 +129,16 @@ constexpr double leaning = 0.866;  ///< cos 30°
 
 }  // namespace
 
+void ContactRegion::add(const Vec3& vertex) {
+  vertices.push_back(vertex);
+  vertex_sum += vertex;
+  ++vertex_count;
+}
+
 void ContactRegion::add(const ContactRegion& other) {
   vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+  vertex_sum += other.vertex_sum;
+  vertex_count += other.vertex_count;
   moment += other.moment;
   area += other.area;
 }
@@ -138,9 +146,25 @@ void ContactRegion::add(const ContactRegion& other) {
 Vec3 ContactRegion::mean() const {
   PARSEL_ASSERT(!vertices.empty(), "an empty region has no mean");
   if (area > 1e-12) return moment / area;
-  Vec3 sum = Vec3::Zero();  // an edge or a corner
-  for (const Vec3& v : vertices) sum += v;
-  return sum / static_cast<double>(vertices.size());
+  return vertex_sum / static_cast<double>(vertex_count);  // an edge or a corner
+}
+
+void ContactRegion::reduce(const std::vector<Mat3>& axes) {
+  std::vector<std::size_t> kept;
+  for (const Mat3& rows : axes) {
+    for (int i = 0; i < 3; ++i) {
+      const auto along = [&](const Vec3& a, const Vec3& b) { return rows.row(i).dot(a) < rows.row(i).dot(b); };
+      const auto [low, high] = std::minmax_element(vertices.begin(), vertices.end(), along);
+      kept.push_back(static_cast<std::size_t>(low - vertices.begin()));
+      kept.push_back(static_cast<std::size_t>(high - vertices.begin()));
+    }
+  }
+  if (vertices.empty()) return;
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  std::vector<Vec3> furthest;
+  for (const std::size_t i : kept) furthest.push_back(vertices[i]);
+  vertices = std::move(furthest);
 }
 
 ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const PartMesh& b, const Hexahedron& box_b,
@@ -156,12 +180,60 @@ ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const P
 
 bool contains(const Hexahedron& outer, const Hexahedron& inner) {
   const Box box(outer);
+  const Vec3 middle = box.to_local(inner.corners.colwise().mean().transpose());
+  if ((middle.cwiseAbs().array() > box.half.array()).any()) return false;
   for (int k = 0; k < 8; ++k) {
     const Vec3 q = box.to_local(inner.corners.row(k).transpose());
     if ((q.cwiseAbs().array() > box.half.array() + contact_distance).any()) return false;
   }
   return true;
 }
+
+namespace {
+
+/// Whether a region lies at one face of a box alone: along some axis it is no thicker than what counts as contact, at
+/// the box's end, of a box that is clearly thicker.
+bool at_one_face(const std::array<Interval, 3>& along, const Box& box) {
+  for (int i = 0; i < 3; ++i) {
+    const Interval& interval = along[static_cast<std::size_t>(i)];
+    const bool thin = interval.half() <= contact_distance / 2 && box.half[i] > 2 * contact_distance;
+    if (thin && std::abs(interval.middle()) >= box.half[i] - contact_distance) return true;
+  }
+  return false;
+}
+
+/// The rectangle in which two parts touch, `along` the axes of one of them: across the axis in which the region is as
+/// thin as a contact or, where parts run into each other, through the least of the box.
+ContactPatch patch_of(const std::array<Interval, 3>& along, const Box& frame, const Box& a, const Box& b) {
+  int thinnest = 0, shallowest = 0;
+  for (int i = 1; i < 3; ++i) {
+    const auto half = [&](int axis) { return along[static_cast<std::size_t>(axis)].half(); };
+    if (half(i) < half(thinnest)) thinnest = i;
+    if (half(i) / frame.half[i] < half(shallowest) / frame.half[shallowest]) shallowest = i;
+  }
+  const bool is_flat = along[static_cast<std::size_t>(thinnest)].half() <= contact_distance / 2;
+  const int across = is_flat ? thinnest : shallowest;
+  Vec3 middle;
+  for (int i = 0; i < 3; ++i) middle[i] = along[static_cast<std::size_t>(i)].middle();
+  ContactPatch patch;
+  patch.centre = frame.to_world(middle);
+  patch.normal = frame.axes.row(across).transpose();
+  if ((b.centre - a.centre).dot(patch.normal) < 0) patch.normal = -patch.normal;
+  std::size_t side = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (i == across) continue;
+    patch.half_sides[side++] = along[static_cast<std::size_t>(i)].half() * frame.axes.row(i).transpose();
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 corner = patch.centre + corner_sign(static_cast<int>(k), 0) * patch.half_sides[0] +
+                        corner_sign(static_cast<int>(k), 1) * patch.half_sides[1];
+    patch.local_a[k] = snapped_local(a, corner);
+    patch.local_b[k] = snapped_local(b, corner);
+  }
+  return patch;
+}
+
+}  // namespace
 
 FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRegion& region, bool a_in_b,
                        bool b_in_a) {
@@ -172,7 +244,9 @@ FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRe
 
   std::array<Interval, 3> along;
   std::array<bool, 3> shared{};
-  if (a_in_b || b_in_a) {
+  FoundAttachment found{0, {}};
+  const bool inside = a_in_b || b_in_a;
+  if (inside && (region.empty() || !at_one_face(extents(region, frame), frame))) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       shared[axis] = true;
       along[axis] = {-frame.half[static_cast<int>(axis)], frame.half[static_cast<int>(axis)]};
@@ -180,6 +254,7 @@ FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRe
   } else {
     PARSEL_ASSERT(!region.empty(), "parts that meet have a region");
     along = extents(region, frame);
+    found.attachment.patch = patch_of(along, frame, box_a, box_b);
     const std::array<Interval, 3> along_other = extents(region, other);
     const std::array<bool, 3> own = symmetric_axes(region, frame), others = symmetric_axes(region, other);
     for (int i = 0; i < 3; ++i) {
@@ -194,7 +269,6 @@ FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRe
     }
   }
 
-  FoundAttachment found{0, {}};
   found.order = static_cast<int>(std::count(shared.begin(), shared.end(), true));
   // Every combination of low and high along the shared normals; the middle along the other axes.
   for (int k = 0; k < 8; ++k) {

@@ -44,10 +44,16 @@ inline constexpr double snap_distance = 0.01;
 /// The clipped surfaces of a contact, by their vertices and the mean by area.
 struct ContactRegion {
   std::vector<Vec3> vertices;
+  Vec3 vertex_sum = Vec3::Zero();  ///< of all vertices, those that reduce() left out too
+  std::size_t vertex_count = 0;
   Vec3 moment = Vec3::Zero();  ///< Σ area · centroid
   double area = 0;
   bool empty() const { return vertices.empty(); }
+  void add(const Vec3& vertex);
   void add(const ContactRegion& other);
+  /// Leaves out the vertices that are the furthest along no row of the axes, either way: what reaches the furthest
+  /// along those stays the same, as does the mean. A region of two detailed meshes has as many vertices as they have.
+  void reduce(const std::vector<Mat3>& axes);
   Vec3 mean() const;
 };
 
@@ -55,7 +61,8 @@ struct ContactRegion {
 ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const PartMesh& b, const Hexahedron& box_b,
                              double distance = contact_distance);
 
-/// Whether all of `inner` lies in `outer` inflated by contact_distance.
+/// Whether all of `inner` lies in `outer` inflated by contact_distance, and its centre in `outer` itself: a sheet that
+/// lies on a face is outside.
 bool contains(const Hexahedron& outer, const Hexahedron& inner);
 
 struct FoundAttachment {
@@ -65,7 +72,8 @@ struct FoundAttachment {
 
 /// The attachment of two boxes that meet in `region` (not empty). Local coordinates are put onto the centre, symmetry
 /// planes and faces of each part on its own where they are within snap_distance, so the two parts' points may lie that
-/// far apart at rest. `a_in_b`, `b_in_a`: contained.
+/// far apart at rest. `a_in_b`, `b_in_a`: contained; a part that the region shows to touch with one face only counts as
+/// one beside the other all the same.
 FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRegion& region, bool a_in_b, bool b_in_a);
 
 /// Points closer than this would be one point twice.

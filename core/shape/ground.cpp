@@ -17,12 +17,16 @@ constexpr double print_depth = 2e-3;
 /// tan 6°, the tilt that a lamp has to bear (IEC 60598-1). Less, and what hangs or leans stands; more, and tall stools
 /// do not.
 constexpr double least_tilt = 0.105;
+/// The base's share of the narrower side. Less, and a ceiling fan stands on its globe; more, and a sunshade does not.
+constexpr double least_base = 0.1;
+/// An edge of a hull that is shorter than this is two roundings of one point, and has no direction.
+constexpr double rounding = 1e-9;
 
-/// Area and moment of a surface, and its lowest height.
+/// Area and moment of a surface, and its ends along the axes.
 struct Mass {
   double area = 0;
   Vec3 moment = Vec3::Zero();
-  double low = std::numeric_limits<double>::infinity();
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
 };
 
 Mass mass_of(const PartMesh& mesh) {
@@ -32,7 +36,8 @@ Mass mass_of(const PartMesh& mesh) {
     const double area = (b - a).cross(c - a).norm() / 2;
     mass.area += area;
     mass.moment += area * (a + b + c) / 3;
-    mass.low = std::min({mass.low, a.y(), b.y(), c.y()});
+    mass.low = mass.low.cwiseMin(a).cwiseMin(b).cwiseMin(c);
+    mass.high = mass.high.cwiseMax(a).cwiseMax(b).cwiseMax(c);
   }
   return mass;
 }
@@ -83,15 +88,20 @@ double depth_inside(const Footprint& hull, const Vec3& point) {
   double depth = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec3 &a = hull[i], &b = hull[(i + 1) % hull.size()];
-    depth = std::min(depth, turn(a, b, point) / std::hypot(b.x() - a.x(), b.z() - a.z()));
+    const double length = std::hypot(b.x() - a.x(), b.z() - a.z());
+    if (length > rounding) depth = std::min(depth, turn(a, b, point) / length);
   }
   return depth;
 }
 
-bool could_stand(const PartData<Footprint>& prints, const Vec3& centre, double floor) {
+bool could_stand(const PartData<Footprint>& prints, const Mass& whole) {
   std::vector<Vec3> all;
   for (const Footprint& print : prints) all.insert(all.end(), print.begin(), print.end());
-  return depth_inside(hull(std::move(all)), centre) >= least_tilt * (centre.y() - floor);
+  const Vec3 centre = whole.moment / whole.area;
+  const Vec3 size = whole.high - whole.low;
+  const double least =
+      std::max(least_tilt * (centre.y() - whole.low.y()), least_base * std::min(size.x(), size.z()) / 2);
+  return depth_inside(hull(std::move(all)), centre) >= least;
 }
 
 }  // namespace
@@ -103,15 +113,21 @@ PartData<Footprint> footprints(const PartData<PartMesh>& meshes) {
     const Mass mass = mass_of(mesh);
     whole.area += mass.area;
     whole.moment += mass.moment;
-    whole.low = std::min(whole.low, mass.low);
-    lows.push_back(mass.low);
+    whole.low = whole.low.cwiseMin(mass.low);
+    whole.high = whole.high.cwiseMax(mass.high);
+    lows.push_back(mass.low.y());
   }
   PartData<Footprint> prints(meshes.size());
   if (!(whole.area > 0)) return prints;  // wires have no mean
+  // Whether the whole could stand is asked of all that nearly touches the floor: one foot may be a little short.
+  const double floor = whole.low.y();
   for (const PartIndex p : meshes.indices()) {
-    if (lows[p.value()] <= whole.low + contact_distance) prints[p] = print_of(meshes[p], lows[p.value()]);
+    if (lows[p.value()] <= floor + far_contact_distance) prints[p] = print_of(meshes[p], lows[p.value()]);
   }
-  if (!could_stand(prints, whole.moment / whole.area, whole.low)) return PartData<Footprint>(meshes.size());
+  const bool stands = could_stand(prints, whole);
+  for (const PartIndex p : meshes.indices()) {
+    if (!stands || lows[p.value()] > floor + contact_distance) prints[p].clear();
+  }
   return prints;
 }
 

@@ -3,8 +3,9 @@
 // The floor is the horizontal plane (up is +Y, as glTF has it) at the model's lowest point. A part stands on it when
 // its own lowest point is at most contact_distance above, and the model as a whole could stand there: seen from above,
 // the mean of its surface lies within the convex hull of all footprints, and far enough from the hull's edge that a
-// tilt of less than least_tilt would not tip it over. So a ceiling fan does not stand on the bottom of its globe, nor a
-// picture frame, a clock or a ladder against a wall on its narrow lower edge.
+// tilt of less than 6° would not tip it over, and by a tenth of the model's narrower half width. So a ceiling fan does
+// not stand on the bottom of its globe, nor a picture frame, a clock or a ladder against a wall on its narrow lower
+// edge.
 #pragma once
 
 #include <vector>

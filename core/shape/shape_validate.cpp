@@ -180,7 +180,23 @@ class Validator {
         return wrong(relation.id, "point " + std::to_string(i) + " is not where its parts have it at rest");
       }
     }
+    if (a.patch && !is_patch(*a.patch, ha, hb))
+      return wrong(relation.id, "its patch is no rectangle on both its parts");
     return success();
+  }
+
+  static bool is_patch(const ContactPatch& patch, const Hexahedron& a, const Hexahedron& b) {
+    const auto& [first, second] = patch.half_sides;
+    const double off = std::max({std::abs(patch.normal.norm() - 1), std::abs(patch.normal.dot(first)),
+                                 std::abs(patch.normal.dot(second)), std::abs(first.dot(second))});
+    if (!(off <= symmetry_slack)) return false;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3 corner =
+          patch.centre + corner_sign(static_cast<int>(k), 0) * first + corner_sign(static_cast<int>(k), 1) * second;
+      if (!((a.point(patch.local_a[k]) - corner).norm() <= attachment_slack)) return false;
+      if (!((b.point(patch.local_b[k]) - corner).norm() <= attachment_slack)) return false;
+    }
+    return true;
   }
 
   Status check_ground(const Relation& relation) const {
