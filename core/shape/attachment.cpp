@@ -55,7 +55,10 @@ void clip_surface(const PartMesh& mesh, const Box& box, double distance, Contact
     polygon.corners[1] = box.to_local(p1);
     polygon.corners[2] = box.to_local(p2);
     polygon.size = 3;
-    for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) {
+    const Vec3 &q0 = polygon.corners[0], &q1 = polygon.corners[1], &q2 = polygon.corners[2];
+    const Vec3 furthest = q0.cwiseAbs().cwiseMax(q1.cwiseAbs()).cwiseMax(q2.cwiseAbs());
+    const bool is_inside = (furthest.array() <= limit.array()).all();
+    for (int axis = 0; axis < 3 && polygon.size > 0 && !is_inside; ++axis) {
       clip(polygon, axis, 1, limit[axis]);
       clip(polygon, axis, -1, limit[axis]);
     }
@@ -191,17 +194,6 @@ bool contains(const Hexahedron& outer, const Hexahedron& inner) {
 
 namespace {
 
-/// Whether a region lies at one face of a box alone: along some axis it is no thicker than what counts as contact, at
-/// the box's end, of a box that is clearly thicker.
-bool at_one_face(const std::array<Interval, 3>& along, const Box& box) {
-  for (int i = 0; i < 3; ++i) {
-    const Interval& interval = along[static_cast<std::size_t>(i)];
-    const bool thin = interval.half() <= contact_distance / 2 && box.half[i] > 2 * contact_distance;
-    if (thin && std::abs(interval.middle()) >= box.half[i] - contact_distance) return true;
-  }
-  return false;
-}
-
 /// The rectangle in which two parts touch, `along` the axes of one of them: across the axis in which the region is as
 /// thin as a contact or, where parts run into each other, through the least of the box.
 ContactPatch patch_of(const std::array<Interval, 3>& along, const Box& frame, const Box& a, const Box& b) {
@@ -245,8 +237,7 @@ FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRe
   std::array<Interval, 3> along;
   std::array<bool, 3> shared{};
   FoundAttachment found{0, {}};
-  const bool inside = a_in_b || b_in_a;
-  if (inside && (region.empty() || !at_one_face(extents(region, frame), frame))) {
+  if (a_in_b || b_in_a) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       shared[axis] = true;
       along[axis] = {-frame.half[static_cast<int>(axis)], frame.half[static_cast<int>(axis)]};

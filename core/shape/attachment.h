@@ -72,8 +72,7 @@ struct FoundAttachment {
 
 /// The attachment of two boxes that meet in `region` (not empty). Local coordinates are put onto the centre, symmetry
 /// planes and faces of each part on its own where they are within snap_distance, so the two parts' points may lie that
-/// far apart at rest. `a_in_b`, `b_in_a`: contained; a part that the region shows to touch with one face only counts as
-/// one beside the other all the same.
+/// far apart at rest. `a_in_b`, `b_in_a`: contained.
 FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRegion& region, bool a_in_b, bool b_in_a);
 
 /// Points closer than this would be one point twice.

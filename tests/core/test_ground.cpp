@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -98,7 +99,7 @@ TEST_CASE("a group stands where its instances do; they do once it is dissolved")
   for (const Vec3& local : ground.local) CHECK(local.cwiseAbs() == Vec3::Ones());
 }
 
-TEST_CASE("a ball stands on a point, a roller on a line") {
+TEST_CASE("a roller stands on a narrow strip") {
   const auto prism = [](int sides, double radius, double length) {
     fixture::Mesh mesh;
     for (int k = 0; k < sides; ++k) {
@@ -121,7 +122,9 @@ TEST_CASE("a ball stands on a point, a roller on a line") {
   REQUIRE(standing(shape).size() == 2);
   const Ground& ground = ground_of(shape, *standing(shape).begin());
   REQUIRE(ground.points.size() == 4);  // the surface 0.002 above the line is a narrow strip
-  CHECK((ground.points[0] - ground.points[1]).norm() < 0.02);
+  double width = 1;
+  for (std::size_t i = 1; i < 4; ++i) width = std::min(width, (ground.points[0] - ground.points[i]).norm());
+  CHECK(width < 0.02);
 }
 
 TEST_CASE("what moves off the floor is reported, certified, and by the independent check alike") {
