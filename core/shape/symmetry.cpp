@@ -11,36 +11,49 @@
 namespace parsel {
 namespace {
 
-/// Parts by kind, in the order of first appearance, so that ids follow the file.
-std::vector<Parts> kinds(const PartData<std::string>& keys, const SymmetrySearch& search) {
-  std::vector<Parts> by_key;
-  std::vector<std::string> names;
+/// Parts of one kind, and the key that names it.
+struct Kind {
+  std::string key;
+  Parts parts;
+};
+
+/// By grouping key, in the order of first appearance, so that ids follow the file.
+std::vector<Kind> kinds_of(const PartData<std::string>& keys) {
+  std::vector<Kind> kinds;
   std::map<std::string, std::size_t> number;
   for (const PartIndex p : keys.indices()) {
-    const auto [known, is_new] = number.emplace(keys[p], by_key.size());
-    if (is_new) {
-      by_key.emplace_back();
-      names.push_back(keys[p]);
-    }
-    by_key[known->second].push_back(p);
+    const auto [known, is_new] = number.emplace(keys[p], kinds.size());
+    if (is_new) kinds.push_back({keys[p], {}});
+    kinds[known->second].parts.push_back(p);
+  }
+  return kinds;
+}
+
+/// The parts that nothing ties yet, put together where their keys are alike and two of them are of one size.
+std::vector<Parts> twins(std::vector<Kind> kinds, const SymmetrySearch& search) {
+  std::set<PartIndex> tied;
+  for (const MirrorPair& m : search.found.mirrors) tied.insert({m.a, m.b});
+  for (Kind& kind : kinds) {
+    std::erase_if(kind.parts, [&](PartIndex p) { return !search.is_free(p) || tied.count(p) > 0; });
   }
   const auto same_size = [&](const Parts& a, const Parts& b) {
     return std::any_of(a.begin(), a.end(), [&](PartIndex p) {
       return std::any_of(b.begin(), b.end(), [&](PartIndex q) { return search.same_size(p, q); });
     });
   };
-  std::vector<std::size_t> kind(by_key.size());
-  std::iota(kind.begin(), kind.end(), std::size_t{0});
-  for (std::size_t i = 0; i < by_key.size(); ++i) {
-    for (std::size_t k = i + 1; k < by_key.size(); ++k) {
-      if (kind[i] == kind[k] || !alike(names[i], names[k]) || !same_size(by_key[i], by_key[k])) continue;
-      const auto [to, from] = std::minmax({kind[i], kind[k]});
-      std::replace(kind.begin(), kind.end(), std::size_t{from}, std::size_t{to});
+  std::vector<std::size_t> set(kinds.size());
+  std::iota(set.begin(), set.end(), std::size_t{0});
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    for (std::size_t k = i + 1; k < kinds.size(); ++k) {
+      if (set[i] == set[k] || !alike(kinds[i].key, kinds[k].key)) continue;
+      if (!same_size(kinds[i].parts, kinds[k].parts)) continue;
+      const std::size_t to = std::min(set[i], set[k]), from = std::max(set[i], set[k]);
+      std::replace(set.begin(), set.end(), from, to);
     }
   }
-  std::vector<Parts> out(by_key.size());
-  for (std::size_t i = 0; i < by_key.size(); ++i) {
-    out[kind[i]].insert(out[kind[i]].end(), by_key[i].begin(), by_key[i].end());
+  std::vector<Parts> out(kinds.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    out[set[i]].insert(out[set[i]].end(), kinds[i].parts.begin(), kinds[i].parts.end());
   }
   std::erase_if(out, [](const Parts& parts) { return parts.size() < 2; });
   for (Parts& parts : out) std::sort(parts.begin(), parts.end());
@@ -129,11 +142,14 @@ class Alignment {
 Symmetries find_symmetries(const PartData<PartMesh>& meshes, const PartData<Hexahedron>& boxes,
                            const PartData<std::string>& keys, const SymmetryOptions& options) {
   SymmetrySearch search(meshes, boxes, options);
-  for (const Parts& kind : kinds(keys, search)) {
-    search.find_rings(kind);
-    search.find_rows(kind);
-    search.find_reflections(kind);
+  const std::vector<Kind> kinds = kinds_of(keys);
+  for (const Kind& kind : kinds) {
+    search.find_rings(kind.parts);
+    search.find_rows(kind.parts);
+    search.find_reflections(kind.parts);
   }
+  // Names that differ say that parts differ: they are twins only where nothing else explains them.
+  for (const Parts& parts : twins(kinds, search)) search.find_reflections(parts);
   return std::move(search.found);
 }
 

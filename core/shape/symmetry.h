@@ -19,8 +19,8 @@
 //      all of them have an image there. Parts of one group are not paired with each other; two groups are paired when
 //      all their instances are, about one plane; a pair of an instance and a part of no group counts once an edit
 //      dissolves the group.
-// Parts are of one kind when their grouping keys are equal; and when these differ by little (alike()) and there are
-// parts of equal size under both: "lega", "legb".
+// Parts are of one kind when their grouping keys are equal. What nothing ties then is looked at once more for mirror
+// images among parts of one size whose keys differ by little (alike()): "lega" and "legb", "side" and "sideboard".
 #pragma once
 
 #include <string>
