@@ -42,6 +42,17 @@ Amount::Amount(const ex& expression) : expression_(canonical(expression)) {
   PARSEL_ASSERT(in_grammar(expression_), "amounts are made of the grammar's functions");
 }
 
+Amount::Amount(const ex& expression, WrittenAmount written) : Amount(expression) {
+  written_ = std::make_shared<const WrittenAmount>(std::move(written));
+}
+
+std::shared_ptr<const WrittenAmount> Amount::written() const {
+  if (written_) return written_;
+  const Result<Amount> read = parse_amount(text());
+  PARSEL_ASSERT(read.ok(), "the text of an amount can be read");
+  return read->written_;
+}
+
 Amount Amount::constant(double value) {
   PARSEL_ASSERT(std::isfinite(value), "amounts are finite");
   for (long q = 3; q <= 1000; ++q) {
@@ -58,6 +69,7 @@ Amount Amount::parameter(const std::string& name) {
 }
 
 std::vector<std::string> Amount::parameters() const {
+  if (written_) return written_->names;
   std::set<std::string> names;
   collect_names(expression_, names);
   return {names.begin(), names.end()};

@@ -17,19 +17,47 @@
 // Undefined is NaN, never infinity: division by zero, 0 to a negative power, a root or fractional power of a negative
 // (but down to -1e-12, the noise of an expanded square, it counts as 0), anything too large for a double. NaN goes
 // through every operation. GiNaC simplifies on construction, so that removable singularities vanish: x/x is 1.
+//
+// An amount that was read from text is evaluated as it is written, operation by operation, as the page does: x1/0.05
+// and 20*x1 are one expression and two different doubles, and a screen that rounds down where the export rounds up
+// shows another number of slats. So x/x is undefined at 0 there.
+//
+// Whole numbers: floor(a) is ⌊a + 1e-9⌋, in amounts and for counts. 0.15/0.05 is a hair below 3 in doubles and means 3.
 #pragma once
 
 #include <ginac/ginac.h>
 
+#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/amount/interval.h"
 #include "core/base/result.h"
 
 namespace parsel {
+
+/// What rounding down forgives. Less, and 0.15/0.05 adds 2 instead of 3; much more, and a slider sees a count change
+/// before its mark.
+inline constexpr double counting_slack = 1e-9;
+/// The one rule of whole numbers, for doubles, intervals and jets: what floor() in amounts gives, and how many
+/// instances change_count adds.
+template <class T>
+T counted(const T& amount) {
+  using std::floor;
+  return floor(amount + T(counting_slack));
+}
+
+/// What is under a root may come out as a negative of this size when it is an expanded square: it counts as 0. Next to
+/// the cut of atan2, where it jumps by 2π, y may come out below 0 by this share of |x|: it counts as above.
+inline constexpr double amount_noise = 1e-12;
+/// atan2 where doubles may be on either side of its cut.
+inline bool may_meet_cut(const Interval& y, const Interval& x) {
+  return !(x.low > 0 || y.low > 0 || y.high < std::min(amount_noise * x.low, 0.0));
+}
 
 /// Flat double code for a stack machine: what an Amount is compiled to, so that evaluation never enters GiNaC.
 class CompiledAmount {
@@ -81,6 +109,13 @@ int arity(CompiledAmount::Op op);
 /// What one operation gives; NaN where it is undefined. `b` is not read when the arity is 1.
 double apply_operation(CompiledAmount::Op op, double a, double b);
 
+/// An amount's text and the code of its operations as they are written; parameters are numbered as in `names`.
+struct WrittenAmount {
+  std::string text;
+  std::vector<std::string> names;  ///< that occur, sorted
+  std::vector<CompiledAmount::Instruction> code;
+};
+
 /// An immutable closed-form expression.
 class Amount {
  public:
@@ -88,12 +123,16 @@ class Amount {
   /// Made of real parameters, real numbers, + - * / ^, pi and the functions of the grammar; asin, acos and atan are
   /// taken as atan2. Doubles that are short decimals become exact. Other functions are a programmer's error.
   explicit Amount(const GiNaC::ex& expression);
+  /// What was read from `written`, and is evaluated as it is written.
+  Amount(const GiNaC::ex& expression, WrittenAmount written);
   /// Finite. Exact when it is a decimal of at most 12 digits or the double nearest to a fraction p/q, q ≤ 1,000.
   static Amount constant(double value);
   static Amount parameter(const std::string& name);
 
   const GiNaC::ex& expression() const { return expression_; }
-  /// Names of the parameters that occur, sorted.
+  /// The text as it was read, or else text(), and its code.
+  std::shared_ptr<const WrittenAmount> written() const;
+  /// Names of the parameters that occur, sorted; as written, so that x1 - x1 has one.
   std::vector<std::string> parameters() const;
   bool is_zero() const;
 
@@ -112,6 +151,7 @@ class Amount {
 
  private:
   GiNaC::ex expression_;
+  std::shared_ptr<const WrittenAmount> written_;  ///< nothing when it is the outcome of a computation
 };
 
 /// The symbol of a parameter: one per name, process-wide, as GiNaC compares symbols by identity.

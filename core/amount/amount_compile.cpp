@@ -23,11 +23,14 @@ using Code = std::vector<CompiledAmount::Instruction>;
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t stack_size = 256;
 
-/// What is under a root may come out as a negative of this size when it is an expanded square.
-constexpr double root_noise = 1e-12;
-
 double without_root_noise(double value) {
-  return value < 0 && value >= -root_noise ? 0 : value;
+  return value < 0 && value >= -amount_noise ? 0 : value;
+}
+
+double turn_of(double y, double x) {
+  x += 0.0;  // -0 is 0
+  if (x < 0 && y <= 0 && y >= amount_noise * x) y = 0;
+  return std::atan2(y, x);
 }
 
 double power_of(double base, double exponent) {
@@ -231,9 +234,17 @@ int arity(Op op) {
     case Op::cos:
     case Op::tan:
       return 1;
-    default:
+    case Op::add:
+    case Op::subtract:
+    case Op::multiply:
+    case Op::divide:
+    case Op::power:
+    case Op::atan2:
+    case Op::min:
+    case Op::max:
       return 2;
   }
+  return 0;
 }
 
 double apply_operation(Op op, double a, double b) {
@@ -268,7 +279,7 @@ double apply_operation(Op op, double a, double b) {
       result = std::abs(a);
       break;
     case Op::floor:
-      result = std::floor(a);
+      result = counted(a);
       break;
     case Op::sin:
       result = std::sin(a);
@@ -280,7 +291,7 @@ double apply_operation(Op op, double a, double b) {
       result = std::tan(a);
       break;
     case Op::atan2:
-      result = std::atan2(a, b);
+      result = turn_of(a, b);
       break;
     case Op::min:
       result = std::isnan(a) || a < b ? a : b;
@@ -318,7 +329,18 @@ std::optional<Op> CompiledAmount::undefined_operation(const double* parameters) 
 }
 
 CompiledAmount Amount::compile(const std::vector<std::string>& names) const {
-  return CompiledAmount(Compiler(names).compile(expression_));
+  if (!written_) return CompiledAmount(Compiler(names).compile(expression_));
+  std::vector<std::uint32_t> places;
+  for (const std::string& name : written_->names) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    PARSEL_ASSERT(found != names.end(), "every parameter that occurs must be among the names");
+    places.push_back(static_cast<std::uint32_t>(found - names.begin()));
+  }
+  Code code = written_->code;
+  for (CompiledAmount::Instruction& instruction : code) {
+    if (instruction.op == Op::parameter) instruction.parameter = places[instruction.parameter];
+  }
+  return CompiledAmount(std::move(code));
 }
 
 }  // namespace parsel

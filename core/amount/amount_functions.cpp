@@ -25,7 +25,8 @@ bool is_number(const ex& e) {
 
 ex real_floor_eval(const ex& a) {
   if (!is_number(a)) return real_floor(a).hold();
-  return numeric(cln::floor1(cln::the<cln::cl_R>(ex_to<numeric>(a).to_cl_N())));
+  static const numeric slack = numeric(1, 1'000'000'000);  // counting_slack, exact
+  return numeric(cln::floor1(cln::the<cln::cl_R>((ex_to<numeric>(a) + slack).to_cl_N())));
 }
 ex real_floor_evalf(const ex& a) {
   return real_floor_eval(a);

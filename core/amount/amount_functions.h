@@ -9,7 +9,7 @@
 
 namespace parsel {
 
-// GiNaC has no floor, and no min and max of two; more arguments are folded.
+// GiNaC has no floor (real_floor is counted() of amount.h), and no min and max of two; more arguments are folded.
 DECLARE_FUNCTION_1P(real_floor)
 DECLARE_FUNCTION_2P(real_min)
 DECLARE_FUNCTION_2P(real_max)

@@ -2,9 +2,11 @@
 // depth are limited, and numbers are refused before they grow beyond `bits_limit` (9^9^9 would else be computed
 // exactly). What GiNaC would throw about is refused beforehand as far as it is known, since GiNaC leaks the node it
 // throws from.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 #include "core/amount/amount.h"
 #include "core/amount/amount_functions.h"
@@ -24,17 +26,18 @@ constexpr double bits_limit = 65536;
 
 struct Function {
   std::string_view name;
+  CompiledAmount::Op op;
   std::size_t least, most;  ///< numbers of arguments
 };
-constexpr std::array<Function, 9> functions = {{{"sqrt", 1, 1},
-                                                {"abs", 1, 1},
-                                                {"floor", 1, 1},
-                                                {"sin", 1, 1},
-                                                {"cos", 1, 1},
-                                                {"tan", 1, 1},
-                                                {"atan2", 2, 2},
-                                                {"min", 2, length_limit},
-                                                {"max", 2, length_limit}}};
+constexpr std::array<Function, 9> functions = {{{"sqrt", CompiledAmount::Op::sqrt, 1, 1},
+                                                {"abs", CompiledAmount::Op::abs, 1, 1},
+                                                {"floor", CompiledAmount::Op::floor, 1, 1},
+                                                {"sin", CompiledAmount::Op::sin, 1, 1},
+                                                {"cos", CompiledAmount::Op::cos, 1, 1},
+                                                {"tan", CompiledAmount::Op::tan, 1, 1},
+                                                {"atan2", CompiledAmount::Op::atan2, 2, 2},
+                                                {"min", CompiledAmount::Op::min, 2, length_limit},
+                                                {"max", CompiledAmount::Op::max, 2, length_limit}}};
 
 const Function* find_function(std::string_view name) {
   for (const Function& function : functions) {
@@ -79,7 +82,7 @@ class Parser {
       if (!failure_) expect_end();
       if (!failure_ && !fits_double(term.value)) no_value(operation_);
       if (failure_) return *failure_;
-      return Amount(term.value);
+      return Amount(term.value, written());
     } catch (const std::exception&) {
       no_value(operation_);
       return *failure_;
@@ -87,6 +90,43 @@ class Parser {
   }
 
  private:
+  using Op = CompiledAmount::Op;
+
+  /// Appends an operation to the code; one on constants is done at once. What GiNaC makes of the expression has other
+  /// roundings.
+  void emit(Op op) {
+    if (failure_) return;
+    const auto operands = static_cast<std::size_t>(arity(op));
+    const auto is_constant = [](const CompiledAmount::Instruction& i) { return i.op == Op::constant; };
+    if (code_.size() < operands ||
+        !std::all_of(code_.end() - static_cast<std::ptrdiff_t>(operands), code_.end(), is_constant)) {
+      code_.push_back({op});
+      return;
+    }
+    const double last = code_.back().constant;
+    if (operands == 2) code_.pop_back();
+    double& value = code_.back().constant;
+    value = operands == 2 ? apply_operation(op, value, last) : apply_operation(op, last, 0);
+  }
+
+  void emit_parameter(const std::string& name) {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    code_.push_back({Op::parameter, static_cast<std::uint32_t>(found - names_.begin())});
+    if (found == names_.end()) names_.push_back(name);
+  }
+
+  /// With the parameters numbered in the order of their names.
+  WrittenAmount written() {
+    WrittenAmount result{std::string(text_), names_, std::move(code_)};
+    std::sort(result.names.begin(), result.names.end());
+    for (CompiledAmount::Instruction& i : result.code) {
+      if (i.op != Op::parameter) continue;
+      const auto place = std::find(result.names.begin(), result.names.end(), names_[i.parameter]);
+      i.parameter = static_cast<std::uint32_t>(place - result.names.begin());
+    }
+    return result;
+  }
+
   static Error fault(std::size_t at, std::string cause, std::string fix) {
     return {"edit/amount", "column " + std::to_string(at + 1), std::move(cause), std::move(fix)};
   }
@@ -156,6 +196,7 @@ class Parser {
       const Term right = product();
       if (failure_) break;
       operation_ = at;
+      emit(plus ? Op::add : Op::subtract);
       left = bounded({plus ? left.value + right.value : left.value - right.value, left.bits + right.bits + 1}, at);
     }
     return left;
@@ -170,6 +211,7 @@ class Parser {
       const Term right = unary();
       if (failure_) break;
       operation_ = at;
+      emit(times ? Op::multiply : Op::divide);
       if (left.bits + right.bits > bits_limit) return bounded({0, left.bits + right.bits}, at);
       if (!times && right.value.is_zero()) return no_value(at);
       left = bounded({times ? left.value * right.value : left.value / right.value, left.bits + right.bits}, at);
@@ -183,6 +225,7 @@ class Parser {
     if (!enter()) return {};
     Term operand = unary();
     --depth_;
+    if (minus) emit(Op::negate);
     return minus ? Term{-operand.value, operand.bits} : operand;
   }
 
@@ -195,6 +238,7 @@ class Parser {
     --depth_;
     if (failure_) return {};
     operation_ = at;
+    emit(Op::power);
     return raised(base, exponent.value, at);
   }
 
@@ -249,6 +293,7 @@ class Parser {
     if (exponent > 308 || !std::isfinite(value)) {
       return fail(start, "the number is out of range", "numbers go up to 1.7e308 with exponents from -308 to 308");
     }
+    code_.push_back({Op::constant, 0, value});
     if (const auto exact = exact_decimal(token)) return {*exact, bits_of(*exact)};
     return {inexact(value), bits_of(inexact(value))};
   }
@@ -257,7 +302,10 @@ class Parser {
     const std::size_t start = at_;
     while (at_ < text_.size() && continues_name(text_[at_])) ++at_;
     const std::string word(text_.substr(start, at_ - start));
-    if (word == "pi") return {GiNaC::Pi, 0};
+    if (word == "pi") {
+      code_.push_back({Op::constant, 0, std::numbers::pi});
+      return {GiNaC::Pi, 0};
+    }
     const Function* function = find_function(word);
     const bool called = peek() == '(';
     if (function != nullptr) {
@@ -268,6 +316,7 @@ class Parser {
       return fail(start, "there is no function " + word.substr(0, 40),
                   "the functions are sqrt, abs, floor, sin, cos, tan, atan2, min and max");
     }
+    emit_parameter(word);
     return {parameter_symbol(word), 0};
   }
 
@@ -278,6 +327,8 @@ class Parser {
     do {
       arguments.push_back(sum());
       if (failure_) return {};
+      // min(a, b, c) is min(min(a, b), c).
+      if (arguments.size() > 1) emit(function.op);
     } while (take(','));
     if (!take(')')) return fail(at_, "there should be ',' or ')', not " + here(), "close the parenthesis");
     --depth_;
@@ -288,6 +339,7 @@ class Parser {
                   "give it " + std::to_string(function.least) + (function.most > function.least ? " or more" : ""));
     }
     operation_ = start;
+    if (arguments.size() == 1) emit(function.op);
     if (function.name == "sqrt") return raised(arguments[0], numeric(1, 2), start);
     double bits = 0;
     for (const Term& argument : arguments) bits += argument.bits;
@@ -315,6 +367,8 @@ class Parser {
   std::size_t operation_ = 0;  ///< where the operator or function stands that is being applied
   int depth_ = 0;
   std::optional<Error> failure_;
+  std::vector<CompiledAmount::Instruction> code_;  ///< of what has been read, in postfix order: that of reading
+  std::vector<std::string> names_;                 ///< of the parameters, in the order of reading
 };
 
 }  // namespace

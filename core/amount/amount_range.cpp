@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <deque>
 
 #include "core/base/result.h"
 
@@ -11,156 +11,135 @@ namespace parsel {
 namespace {
 
 using Op = CompiledAmount::Op;
-using std::numbers::pi;
 
-constexpr double root_noise = 1e-12;  ///< as in apply_operation()
-constexpr int halvings = 40;
-constexpr std::size_t corner_dimensions = 6;  ///< beyond, only the two extreme corners are evaluated
+/// Pieces narrower than this share of the box are not halved. A pole in so thin a piece cannot be told from one beside
+/// it; a coarser limit would refuse 1/(x*x + 1e-12), a finer one makes every pole take more boxes.
+constexpr double narrowest = 1e-9;
+/// What rounding outward adds to a value that just reaches the limit, and more.
+constexpr double limit_slack = 1e-9;
 
-Interval hull(std::initializer_list<double> values) {
-  const auto [low, high] = std::minmax(values);
-  return {low, high};
-}
+/// Larger angles have no sine worth the name, and larger numbers no whole part: what two libraries make of x1^3 differs
+/// in the last place, which at 1e15 is an eighth of a turn. At 1e6 it is 1e-10.
+constexpr double largest_argument = 1e6;
 
-bool contains(const Interval& a, double value) {
-  return a.low <= value && value <= a.high;
-}
+/// What may go wrong somewhere on a box.
+enum class Trouble { none, division, root, power, infinite };
 
-/// sin on an interval: its ends, and 1 or -1 where a crest or trough lies inside.
-Interval sine(const Interval& a) {
-  Interval result = hull({std::sin(a.low), std::sin(a.high)});
-  const auto passes = [&](double phase) {
-    return std::floor((a.high - phase) / (2 * pi)) >= std::ceil((a.low - phase) / (2 * pi));
-  };
-  if (passes(pi / 2)) result.high = 1;
-  if (passes(-pi / 2)) result.low = -1;
-  return result;
-}
-
-std::optional<Interval> tangent(const Interval& a) {
-  if (std::floor((a.low - pi / 2) / pi) != std::floor((a.high - pi / 2) / pi)) return std::nullopt;
-  return Interval{std::tan(a.low), std::tan(a.high)};
-}
-
-Interval arc(const Interval& y, const Interval& x) {
-  // Across the cut along the negative x axis atan2 jumps, but is defined.
-  if (x.low <= 0 && contains(y, 0)) return {-pi, pi};
-  return hull(
-      {std::atan2(y.low, x.low), std::atan2(y.low, x.high), std::atan2(y.high, x.low), std::atan2(y.high, x.high)});
-}
-
-std::optional<Interval> power(const Interval& base, const Interval& exponent) {
-  const double n = exponent.low;
-  const bool constant = exponent.low == exponent.high;
-  const auto corners = [&](double low) {
-    return hull({std::pow(low, exponent.low), std::pow(low, exponent.high), std::pow(base.high, exponent.low),
-                 std::pow(base.high, exponent.high)});
-  };
-  if (base.low > 0) return corners(base.low);
-  if (!constant) return std::nullopt;
-  if (n == std::floor(n)) {
-    if (n < 0 && contains(base, 0)) return std::nullopt;
-    Interval result = corners(base.low);
-    if (contains(base, 0) && n > 0) result = hull({result.low, result.high, 0});
-    return result;
-  }
-  if (n < 0 || base.low < -root_noise) return std::nullopt;
-  return Interval{0, std::pow(std::max(base.high, 0.0), n)};
-}
-
-std::optional<Interval> unary(Op op, const Interval& a) {
-  switch (op) {
-    case Op::negate:
-      return Interval{-a.high, -a.low};
-    case Op::sqrt:
-      if (a.low < -root_noise) return std::nullopt;
-      return Interval{std::sqrt(std::max(a.low, 0.0)), std::sqrt(std::max(a.high, 0.0))};
-    case Op::abs:
-      if (contains(a, 0)) return Interval{0, std::max(-a.low, a.high)};
-      return hull({std::abs(a.low), std::abs(a.high)});
-    case Op::floor:
-      return Interval{std::floor(a.low), std::floor(a.high)};
-    case Op::sin:
-      return sine(a);
-    case Op::cos:
-      return sine({a.low + pi / 2, a.high + pi / 2});
-    case Op::tan:
-      return tangent(a);
-    default:
-      return std::nullopt;
-  }
-}
-
-std::optional<Interval> binary(Op op, const Interval& a, const Interval& b) {
-  switch (op) {
-    case Op::add:
-      return Interval{a.low + b.low, a.high + b.high};
-    case Op::subtract:
-      return Interval{a.low - b.high, a.high - b.low};
-    case Op::multiply:
-      return hull({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-    case Op::divide:
-      if (contains(b, 0)) return std::nullopt;
-      return hull({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
-    case Op::power:
-      return power(a, b);
-    case Op::atan2:
-      return arc(a, b);
-    case Op::min:
-      return Interval{std::min(a.low, b.low), std::min(a.high, b.high)};
-    case Op::max:
-      return Interval{std::max(a.low, b.low), std::max(a.high, b.high)};
-    default:
-      return std::nullopt;
-  }
-}
-
-std::string cause_of(const CompiledAmount& amount, const std::vector<double>& at) {
-  const auto op = amount.undefined_operation(at.data());
-  if (op == Op::sqrt) return "the square root of a negative number";
-  if (op == Op::divide) return "a division by zero";
-  if (op == Op::power) return "a power that has no value";
-  return "no finite value";
-}
-
-struct Box {
-  std::vector<Interval> sides;
-  int halved = 0;
+struct Bound {
+  Interval values;
+  Trouble trouble = Trouble::none;
 };
 
-/// Undefined, or beyond the limit, at one point.
-std::optional<RangeFault> fault_at(const CompiledAmount& amount, const std::vector<double>& at, double limit) {
-  const double value = amount(at.data());
-  if (std::isnan(value)) return RangeFault{at, cause_of(amount, at)};
-  if (std::abs(value) > limit) return RangeFault{at, "a value that grows without bound"};
-  return std::nullopt;
+/// A root may be forgiven, see the header.
+bool is_root(Trouble trouble) {
+  return trouble == Trouble::root || trouble == Trouble::power;
 }
 
-std::optional<RangeFault> fault_at_corners(const CompiledAmount& amount, const std::vector<Interval>& box,
-                                           double limit) {
-  const std::size_t all = std::size_t{1} << std::min(box.size(), corner_dimensions);
-  for (std::size_t corner = 0; corner < all; ++corner) {
-    std::vector<double> at;
-    for (std::size_t i = 0; i < box.size(); ++i) {
-      const bool high = i < corner_dimensions ? (corner >> i & 1) != 0 : corner + 1 == all;
-      at.push_back(high ? box[i].high : box[i].low);
-    }
-    if (auto fault = fault_at(amount, at, limit)) return fault;
+Bound troubled(Trouble trouble) {
+  return {Interval::everything(), trouble};
+}
+
+bool is_integer(const Interval& a) {
+  return a.low == a.high && a.low == std::floor(a.low);
+}
+
+Bound raised(const Interval& base, const Interval& exponent) {
+  if (is_integer(exponent)) {
+    if (exponent.low < 0 && base.contains(0)) return troubled(Trouble::division);
+    return {integer_power(base, exponent.low)};
   }
-  return std::nullopt;
+  if (base.low < -amount_noise) return troubled(Trouble::power);
+  const Interval real(std::max(base.low, 0.0), std::max(base.high, 0.0));
+  if (real.low <= 0 && exponent.low < 0) return troubled(Trouble::division);
+  // As a limit 0^0 has no value.
+  if (real.low <= 0 && exponent.low <= 0) return troubled(Trouble::infinite);
+  return {power(real, exponent)};
 }
 
-}  // namespace
+Bound turned(const Interval& y, const Interval& x) {
+  return {may_meet_cut(y, x) ? atan2(Interval(-1, 1), Interval(-1, 1)) : atan2(y, x)};
+}
 
-std::optional<Interval> enclose(const CompiledAmount& amount, const std::vector<Interval>& box) {
+Bound unary(Op op, const Interval& a) {
+  switch (op) {
+    case Op::negate:
+      return {-a};
+    case Op::sqrt:
+      if (a.low < -amount_noise) return troubled(Trouble::root);
+      return {sqrt(a)};
+    case Op::abs:
+      return {abs(a)};
+    case Op::floor:
+      if (a.magnitude() > largest_argument) return troubled(Trouble::infinite);
+      return {counted(a)};
+    case Op::sin:
+      if (a.magnitude() > largest_argument) return troubled(Trouble::infinite);
+      return {sin(a)};
+    case Op::cos:
+      if (a.magnitude() > largest_argument) return troubled(Trouble::infinite);
+      return {cos(a)};
+    case Op::tan:
+      return {tan(a)};
+    case Op::constant:
+    case Op::parameter:
+    case Op::add:
+    case Op::subtract:
+    case Op::multiply:
+    case Op::divide:
+    case Op::power:
+    case Op::atan2:
+    case Op::min:
+    case Op::max:
+      break;
+  }
+  PARSEL_ASSERT(false, "the operation takes one operand");
+  return {};
+}
+
+Bound binary(Op op, const Interval& a, const Interval& b) {
+  switch (op) {
+    case Op::add:
+      return {a + b};
+    case Op::subtract:
+      return {a - b};
+    case Op::multiply:
+      return {a * b};
+    case Op::divide:
+      if (b.contains(0)) return troubled(Trouble::division);
+      return {a / b};
+    case Op::power:
+      return raised(a, b);
+    case Op::atan2:
+      return turned(a, b);
+    case Op::min:
+      return {min(a, b)};
+    case Op::max:
+      return {max(a, b)};
+    case Op::constant:
+    case Op::parameter:
+    case Op::negate:
+    case Op::sqrt:
+    case Op::abs:
+    case Op::floor:
+    case Op::sin:
+    case Op::cos:
+    case Op::tan:
+      break;
+  }
+  PARSEL_ASSERT(false, "the operation takes two operands");
+  return {};
+}
+
+/// The first trouble in the order of the code counts.
+Bound bound(const CompiledAmount& amount, const std::vector<Interval>& box) {
   std::vector<Interval> stack;
   stack.reserve(amount.depth());
   for (const CompiledAmount::Instruction& instruction : amount.code()) {
-    std::optional<Interval> result;
+    Bound result;
     if (instruction.op == Op::constant) {
-      result = Interval{instruction.constant, instruction.constant};
+      result.values = instruction.constant;
     } else if (instruction.op == Op::parameter) {
-      result = box[instruction.parameter];
+      result.values = box[instruction.parameter];
     } else if (arity(instruction.op) == 1) {
       result = unary(instruction.op, stack.back());
       stack.pop_back();
@@ -170,45 +149,110 @@ std::optional<Interval> enclose(const CompiledAmount& amount, const std::vector<
       result = binary(instruction.op, stack.back(), b);
       stack.pop_back();
     }
-    if (!result || !std::isfinite(result->low) || !std::isfinite(result->high)) return std::nullopt;
-    stack.push_back(*result);
+    if (result.trouble != Trouble::none) return result;
+    if (!std::isfinite(result.values.low) || !std::isfinite(result.values.high)) return troubled(Trouble::infinite);
+    stack.push_back(result.values);
   }
-  return stack.back();
+  return {stack.back()};
+}
+
+std::string words(Trouble trouble) {
+  switch (trouble) {
+    case Trouble::none:
+      return "a value that grows without bound";
+    case Trouble::division:
+      return "a division by zero";
+    case Trouble::root:
+      return "the square root of a negative number";
+    case Trouble::power:
+      return "a power that has no value";
+    case Trouble::infinite:
+      return "no finite value";
+  }
+  return "";
+}
+
+std::vector<double> middle(const std::vector<Interval>& box) {
+  std::vector<double> at;
+  for (const Interval& side : box) at.push_back((side.low + side.high) / 2);
+  return at;
+}
+
+class Judge {
+ public:
+  Judge(const CompiledAmount& amount, const std::vector<Interval>& whole, double limit, int& budget)
+      : amount_(amount), whole_(whole), limit_(limit), budget_(budget) {}
+
+  std::optional<RangeFault> run() {
+    for (const bool high : {false, true}) {
+      std::vector<double> corner;
+      for (const Interval& side : whole_) corner.push_back(high ? side.high : side.low);
+      if (auto fault = fault_at(corner)) return fault;
+    }
+    std::deque<std::vector<Interval>> open = {whole_};
+    for (int boxes = 0; !open.empty() && budget_ >= 0; ++boxes) {
+      const std::vector<Interval> box = std::move(open.front());
+      open.pop_front();
+      const Bound range = look(box);
+      if (fits(range)) continue;
+      const std::vector<double> at = middle(box);
+      if (auto fault = fault_at(at)) return fault;
+      const auto [side, share] = widest(box);
+      if (share > narrowest && boxes < boxes_per_amount) {
+        for (const bool upper : {false, true}) {
+          open.push_back(box);
+          (upper ? open.back()[side].low : open.back()[side].high) = at[side];
+        }
+      } else if (!is_root(range.trouble)) {
+        return RangeFault{at, words(range.trouble)};
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Bound look(const std::vector<Interval>& box) {
+    budget_ -= static_cast<int>(amount_.code().size());
+    return bound(amount_, box);
+  }
+
+  bool fits(const Bound& range) const {
+    return range.trouble == Trouble::none && range.values.magnitude() <= limit_ * (1 + limit_slack);
+  }
+
+  std::optional<RangeFault> fault_at(const std::vector<double>& at) {
+    const Bound range = look(std::vector<Interval>(at.begin(), at.end()));
+    if (range.trouble == Trouble::none && range.values.mignitude() <= limit_) return std::nullopt;
+    return RangeFault{at, words(range.trouble)};
+  }
+
+  std::pair<std::size_t, double> widest(const std::vector<Interval>& box) const {
+    std::pair<std::size_t, double> found{0, 0};
+    for (std::size_t i = 0; i < box.size(); ++i) {
+      const double all = whole_[i].high - whole_[i].low;
+      const double share = all > 0 ? (box[i].high - box[i].low) / all : 0;
+      if (share > found.second) found = {i, share};
+    }
+    return found;
+  }
+
+  const CompiledAmount& amount_;
+  const std::vector<Interval>& whole_;
+  double limit_;
+  int& budget_;
+};
+
+}  // namespace
+
+std::optional<Interval> enclose(const CompiledAmount& amount, const std::vector<Interval>& box) {
+  const Bound range = bound(amount, box);
+  if (range.trouble != Trouble::none) return std::nullopt;
+  return range.values;
 }
 
 std::optional<RangeFault> find_fault(const CompiledAmount& amount, const std::vector<Interval>& box, double limit,
                                      int& budget) {
-  if (auto fault = fault_at_corners(amount, box, limit)) return fault;
-  std::vector<Box> open = {{box, 0}};
-  while (!open.empty() && budget > 0) {
-    --budget;
-    const Box current = std::move(open.back());
-    open.pop_back();
-    const auto range = enclose(amount, current.sides);
-    if (range && std::max(-range->low, range->high) <= limit) continue;
-    std::vector<double> centre;
-    std::size_t widest = 0;
-    double most = 0;
-    for (std::size_t i = 0; i < box.size(); ++i) {
-      const Interval& side = current.sides[i];
-      centre.push_back((side.low + side.high) / 2);
-      // Widths count relative to the whole, so that all parameters are narrowed alike.
-      const double width = box[i].high > box[i].low ? (side.high - side.low) / (box[i].high - box[i].low) : 0;
-      if (width > most) {
-        most = width;
-        widest = i;
-      }
-    }
-    if (auto fault = fault_at(amount, centre, limit)) return fault;
-    if (most == 0 || current.halved == halvings * static_cast<int>(box.size())) continue;
-    for (const bool upper : {false, true}) {
-      Box half = current;
-      ++half.halved;
-      (upper ? half.sides[widest].low : half.sides[widest].high) = centre[widest];
-      open.push_back(std::move(half));
-    }
-  }
-  return std::nullopt;
+  return Judge(amount, box, limit, budget).run();
 }
 
 }  // namespace parsel

@@ -1,4 +1,10 @@
-// Whether an amount is defined, real and bounded on a whole box of parameters.
+// Whether an amount is defined, real and bounded on a whole box of parameters: the one rule of what is accepted.
+//
+// web/src/program/domain.ts has the same rule, operation by operation and box by box, so that the page accepts what the
+// tools accept: an amount is accepted when interval arithmetic shows on every piece of the box that no operation is
+// undefined and no value leaves the limit. Where it cannot exclude a pole, the amount is refused. Roots alone are
+// forgiven: an expanded square that touches 0 is noise below it, so pieces where nothing but the sign under a root is
+// open count as defined when their middle is.
 #pragma once
 
 #include <optional>
@@ -6,16 +12,12 @@
 #include <vector>
 
 #include "core/amount/amount.h"
+#include "core/amount/interval.h"
 
 namespace parsel {
 
-/// A closed interval, low ≤ high.
-struct Interval {
-  double low = 0, high = 0;
-};
-
-/// An enclosure of the amount's values on the box, to rounding; nothing when it cannot be seen that the amount is
-/// defined on all of it. Not outward rounded: a screen for mistakes, not a proof.
+/// An enclosure of the amount's values on the box; nothing when it cannot be seen that the amount is defined on all of
+/// it. It holds the exact values and those that doubles give.
 std::optional<Interval> enclose(const CompiledAmount& amount, const std::vector<Interval>& box);
 
 struct RangeFault {
@@ -23,10 +25,15 @@ struct RangeFault {
   std::string cause;       ///< "the square root of a negative number"
 };
 
-/// The first point found at which the amount is undefined or larger in magnitude than `limit`. Corners and centre are
-/// evaluated; then the box is bisected where enclose() cannot decide, each time evaluating the centre, down to 2^-40 of
-/// its size, so that poles are found by the growth towards them. At most `budget` boxes are looked at, and the number
-/// is taken from it; what is undecided then counts as defined (the centre of every box has been evaluated).
+/// Operations that all amounts of a program may take together to be judged, and boxes that one may take.
+inline constexpr int judging_budget = 2'000'000;
+inline constexpr int boxes_per_amount = 2'000;
+
+/// Why the amount is refused on the box, by the rule above: undefined, or larger in magnitude than `limit`, or not
+/// shown to be neither. The box's two extreme corners are looked at, then the box is halved where the enclosure does
+/// not decide, first in first out, across the side that is widest relative to the whole, down to 1e-9 of it. Every look
+/// at a box takes the length of the code from `budget`; when that is spent, nothing is found and the budget is
+/// negative.
 std::optional<RangeFault> find_fault(const CompiledAmount& amount, const std::vector<Interval>& box, double limit,
                                      int& budget);
 

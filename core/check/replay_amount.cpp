@@ -116,13 +116,16 @@ class Reader {
     if (arguments.size() == 1) {
       if (name == "sqrt") return a < 0 && a > -1e-12 ? 0 : finite(std::sqrt(a));
       if (name == "abs") return std::abs(a);
-      if (name == "floor") return std::floor(a);
+      if (name == "floor") return std::floor(a + 1e-9);
       if (name == "sin") return std::sin(a);
       if (name == "cos") return std::cos(a);
       if (name == "tan") return finite(std::sin(a) / std::cos(a));
       return fail();
     }
-    if (name == "atan2" && arguments.size() == 2) return std::atan2(a, arguments[1]);
+    if (name == "atan2" && arguments.size() == 2) {
+      const double x = arguments[1] + 0.0;
+      return x < 0 && a <= 0 && a >= 1e-12 * x ? pi : std::atan2(a, x);
+    }
     if (name != "min" && name != "max") return fail();
     double best = a;
     for (const double b : arguments) {

@@ -24,7 +24,8 @@
 // -direction along `axis`, moves with start, its last side with end.
 //   * change_delta: instance i moves by (i - i₀)·a·delta, i₀ = 0, (n - 1)/2, n - 1 for anchor start, middle (also fit),
 //     end. start and end move with the first and last instance. n = 1: nothing moves.
-//   * change_count: n' = n + floor(a + 1e-9), clamped to 1…1000. When n' = n nothing changes. Else all n' instances are
+//   * change_count: n' = n + counted(a) (core/amount/amount.h), clamped to 1…1000. When n' = n nothing changes. Else
+//   all n' instances are
 //     copies of instance t, translated by q_j - p_t:
 //       start   t = 0              q_j = p_0 + j·delta                                start = q_0, end = q_{n'-1}
 //       end     t = n - 1          q_j = p_{n-1} - (n' - 1 - j)·delta                 likewise

@@ -9,9 +9,6 @@ namespace parsel {
 
 namespace {
 
-constexpr double count_noise = 1e-9;  ///< so that 3·(1/3) adds one instance
-constexpr double count_limit = 1000;
-
 Vec3 centre_of(const Corners& corners) {
   return corners.colwise().mean().transpose();
 }
@@ -27,8 +24,8 @@ Vec3 spoke(const GroupState& state, const Corners& instance) {
 }
 
 std::size_t new_count(std::size_t n, double amount) {
-  const double wanted = static_cast<double>(n) + std::floor(amount + count_noise);
-  return static_cast<std::size_t>(std::clamp(wanted, 1.0, count_limit));
+  const double wanted = static_cast<double>(n) + counted(amount);
+  return static_cast<std::size_t>(std::clamp(wanted, 1.0, ProgramLimits::instances));
 }
 
 /// Where the instances of a line stand.

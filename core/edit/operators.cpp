@@ -1,7 +1,8 @@
 #include "core/edit/operators.h"
 
 #include <array>
-#include <cmath>
+
+#include "core/edit/displacement.h"
 
 namespace parsel {
 
@@ -11,12 +12,17 @@ constexpr std::array<std::string_view, 9> op_names = {
     "translate", "rotate", "scale_1d", "scale_2d", "scale_3d", "shear", "change_count", "change_delta", "keep_fixed"};
 constexpr std::array<std::string_view, 4> anchor_names = {"start", "middle", "end", "fit"};
 
-/// Rodrigues' formula about a unit axis.
-Vec3 rotated(const Vec3& v, const Vec3& axis, double cosine, double sine) {
-  // Written out: Eigen's cross() needs <Eigen/Geometry>, which costs every build a second.
-  const Vec3 cross(axis.y() * v.z() - axis.z() * v.y(), axis.z() * v.x() - axis.x() * v.z(),
-                   axis.x() * v.y() - axis.y() * v.x());
-  return cosine * v + sine * cross + (1 - cosine) * axis.dot(v) * axis;
+Triple<double> triple(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Displacement<double> displacement_of(const ResolvedOperator& op, double amount) {
+  return {op.op, triple(op.direction), triple(op.normal), amount};
+}
+
+Vec3 moved(const Displacement<double>& displacement, const Vec3& origin, const Vec3& point) {
+  const Triple<double> by = displacement(triple(point - origin));
+  return point + Vec3(by[0], by[1], by[2]);
 }
 
 }  // namespace
@@ -68,35 +74,16 @@ bool selects(const LocalTriple& feature, int corner) {
 }
 
 Vec3 displaced(const ResolvedOperator& op, double amount, const Vec3& point) {
-  const Vec3 r = point - op.origin;
-  switch (op.op) {
-    case Op::translate:
-      return point + amount * op.direction;
-    case Op::rotate:
-      return op.origin + rotated(r, op.direction, std::cos(amount), std::sin(amount));
-    case Op::scale_1d:
-      return point + amount * op.direction.dot(r) * op.direction;
-    case Op::scale_2d:
-      return point + amount * (r - op.normal.dot(r) * op.normal);
-    case Op::scale_3d:
-      return point + amount * r;
-    case Op::shear:
-      return point + amount * op.normal.dot(r) * op.direction;
-    case Op::keep_fixed:
-      return point;
-    case Op::change_count:
-    case Op::change_delta:
-      break;
-  }
-  PARSEL_ASSERT(false, "the group operators move instances, not points");
-  return point;
+  return moved(displacement_of(op, amount), op.origin, point);
 }
 
 void apply_operator(const ResolvedOperator& op, double amount, Corners& corners) {
+  const Displacement<double> displacement = displacement_of(op, amount);
   for (int k = 0; k < 8; ++k) {
-    if (!selects(op.feature, k)) continue;
-    const Vec3 corner = corners.row(k).transpose();
-    corners.row(k) = displaced(op, amount, corner).transpose();
+    if (selects(op.feature, k)) {
+      const Vec3 corner = corners.row(k).transpose();
+      corners.row(k) = moved(displacement, op.origin, corner).transpose();
+    }
   }
 }
 

@@ -56,6 +56,7 @@ struct RelationReport {
   RelationStatus status = RelationStatus::held;
   double worst = 0;  ///< largest deviation of a coordinate over the range, normalised
   Proof proof = Proof::sampled;
+  std::optional<int> samples;  ///< when sampled: at how many values of the parameter, if known
 };
 
 struct Parameter {
@@ -103,6 +104,8 @@ struct ProgramLimits {
   static constexpr double coordinate = 1e6;             ///< of a literal point
   static constexpr double shortest_direction = 1e-9;    ///< a literal direction is longer
   static constexpr double amount = 1e6;                 ///< |amount| over the ranges
+  static constexpr double instances = 1000;             ///< of a group; also |amount| of a change_count
+  static constexpr int samples = 1'000'000;             ///< that a report may speak of
 };
 
 /// Untrusted JSON → a well-formed program (structure, types, limits, grammar), independent of any shape. Unknown keys
@@ -130,9 +133,10 @@ Result<Program> program_from_text(std::string_view text);
 
 /// Whether the program makes sense for the shape: parts (by id or node:<n>) and relations are known; every statement
 /// has the fields that its operator needs and no other; parameters have unique names and ranges with min <= 0 <= max
-/// and min <= value <= max; amounts name only parameters of the program and are defined, with magnitude up to
-/// ProgramLimits::amount, for all parameters in their ranges; no instance is edited after the count of its group may
-/// have changed. Returns the first fault, its place a JSON pointer as in program_from_json().
+/// and min <= value <= max; amounts name only parameters of the program and are shown to be defined, with magnitude up
+/// to ProgramLimits::amount (a change_count: instances), for all parameters in their ranges (see amount_range.h); no
+/// instance is edited after the count of its group may have changed. Returns the first fault, its place a JSON pointer
+/// as in program_from_json().
 Status validate(const Program& program, const Shape& shape);
 
 }  // namespace parsel

@@ -175,13 +175,21 @@ Statement statement(const json& value, const std::string& place) {
 }
 
 RelationReport report(const json& value, const std::string& place) {
-  object(value, place, {"id", "status", "worst", "proof"});
+  object(value, place, {"id", "status", "worst", "proof", "samples"});
   RelationReport result;
   result.id = name(member(value, place, "id"), place + "/id");
   result.status = choice(member(value, place, "status"), place + "/status", relation_status, "held, broken, disabled");
   result.worst = number(member(value, place, "worst"), place + "/worst");
   if (result.worst < 0) refuse(place + "/worst", "a deviation is not negative");
   result.proof = choice(member(value, place, "proof"), place + "/proof", proof, "certified, sampled");
+  if (value.contains("samples")) {
+    const double samples = number(value["samples"], place + "/samples");
+    if (result.proof != Proof::sampled) refuse(place + "/samples", "only a sampled report has samples");
+    if (!(samples >= 1 && samples <= ProgramLimits::samples) || samples != std::floor(samples)) {
+      refuse(place + "/samples", "samples are a whole number from 1 to 1000000");
+    }
+    result.samples = static_cast<int>(samples);
+  }
   return result;
 }
 
@@ -298,6 +306,7 @@ json layer_json(const Layer& layer) {
                        {"status", to_string(report.status)},
                        {"worst", report.worst},
                        {"proof", to_string(report.proof)}});
+    if (report.samples) reports.back()["samples"] = *report.samples;
   }
   const Parameter& p = layer.parameter;
   return {{"request", layer.request},

@@ -85,7 +85,9 @@ std::string to_text(const Program& program) {
     for (const Statement& statement : layer.statements) text += "  " + line(statement) + "\n";
     for (const RelationReport& report : layer.relations) {
       text += "  relation " + in_quotes(report.id) + ": " + std::string(to_string(report.status)) + ", worst " +
-              shortest_decimal(report.worst) + ", " + std::string(to_string(report.proof)) + "\n";
+              shortest_decimal(report.worst) + ", " + std::string(to_string(report.proof));
+      if (report.samples) text += " at " + std::to_string(*report.samples);
+      text += "\n";
     }
   }
   return text;

@@ -141,6 +141,10 @@ RelationReport report(Line& line) {
   if (result.worst < 0) line.fail(at, "a deviation is not negative", "correct it");
   line.expect(',');
   result.proof = choice(line, proof, "certified, sampled");
+  if (result.proof == Proof::sampled && !line.ended()) {
+    line.expect_word("at");
+    result.samples = line.integer(1, ProgramLimits::samples);
+  }
   return result;
 }
 

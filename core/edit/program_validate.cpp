@@ -13,10 +13,6 @@ namespace parsel {
 
 namespace {
 
-/// Boxes that find_fault() may look at, for one amount and for the whole program: hostile programs end within a second.
-constexpr int amount_budget = 2'000;
-constexpr int program_budget = 100'000;
-
 /// Thrown and caught inside this file only.
 struct Refusal {
   std::string place, cause, fix;
@@ -174,16 +170,21 @@ class Checker {
         refuse(place, "no layer has the parameter " + shown(name), "use the parameter of a layer");
       }
     }
-    // Only over the parameters that occur: the others would be bisected in vain.
-    const std::vector<std::string> own = s.amount.parameters();
+    if (accepted_.insert(s.amount.written()->text).second) bounded(s.amount, ProgramLimits::amount, place);
+    if (s.op == Op::change_count) bounded(s.amount, ProgramLimits::instances, place);
+  }
+
+  /// By the rule of amount_range.h, which is the page's as well.
+  void bounded(const Amount& amount, double limit, const std::string& place) {
+    const auto written = amount.written();
+    // Only over the parameters that occur: the others would be halved in vain.
+    const std::vector<std::string>& own = written->names;
     std::vector<Interval> box;
     for (const std::string& name : own) {
       box.push_back(ranges_[static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin())]);
     }
-    int budget = std::min(amount_budget, program_budget_);
-    const int before = budget;
-    const auto fault = find_fault(s.amount.compile(own), box, ProgramLimits::amount, budget);
-    program_budget_ -= before - budget;
+    const auto fault = find_fault(CompiledAmount(written->code), box, limit, budget_);
+    if (budget_ < 0) refuse(place, "the amounts are too many or too long to check", "shorten them");
     if (!fault) return;
     std::string where;
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -199,7 +200,8 @@ class Checker {
   std::unordered_map<std::string, PartIndex> parts_;
   std::unordered_map<std::string, RelationIndex> relations_;
   std::set<RelationIndex> counts_changed_;
-  int program_budget_ = program_budget;
+  std::set<std::string> accepted_;  ///< texts of amounts that have been judged
+  int budget_ = judging_budget;
 };
 
 }  // namespace

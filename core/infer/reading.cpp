@@ -115,13 +115,19 @@ std::string statement_words(const Shape& shape, const Statement& statement) {
     }
     case Op::scale_3d:
       return with(more ? "enlarge %s" : "shrink %s", what) + about + ", in all directions";
-    default: {
+    case Op::shear: {
       const Way normal(at_rest.normal);
       const bool same = normal.positive == way.positive;
       return "slant " + what + about + ": its " + side_words[static_cast<std::size_t>(normal.axis)][1] + " goes " +
              toward[axis][same ? 1 : 0];
     }
+    case Op::keep_fixed:
+    case Op::change_count:
+    case Op::change_delta:
+      break;
   }
+  PARSEL_ASSERT(false, "what moves no points has been put into words");
+  return "";
 }
 
 std::string signature(const Shape& shape, const Statement& statement) {

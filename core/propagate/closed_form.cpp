@@ -34,8 +34,8 @@ std::vector<ClosedForm> driving_amounts(const std::vector<PointConstraint>& cons
     for (const Step& step : edits[constraint.other]->steps) {
       ClosedForm form{step.amount, step.values};
       if (step.what.op == Op::change_count) {
-        form.expression = counted(step.amount);
-        for (double& value : form.values) value = std::floor(value + noise);
+        form.expression = counted_form(step.amount);
+        for (double& value : form.values) value = counted(value);
       }
       const auto equals = [&form](const ClosedForm& other) {
         return largest_difference(form.values, other.values) < noise;

@@ -5,6 +5,7 @@
 #include "core/amount/amount.h"
 #include "core/amount/amount_functions.h"
 #include "core/base/tolerance.h"
+#include "core/edit/displacement.h"
 
 namespace parsel {
 
@@ -20,11 +21,6 @@ const Relation& group_relation(const Shape& shape, PartIndex parent) {
   const Part& part = shape.parts[parent];
   PARSEL_ASSERT(part.is_virtual() && part.group.has_value(), "group operators need the parent of a group");
   return shape.relations[*part.group];
-}
-
-/// What change_count counts with (core/edit/evaluate.h): amounts are rounded down, 3 less a rounding error is 3.
-double counted(double amount) {
-  return std::floor(amount + noise);
 }
 
 /// Displacement of the sides that move with the first and the last instance.
@@ -111,13 +107,26 @@ Motion motion_of(const Shape& shape, PartIndex part, const std::vector<Step>& st
   return motion;
 }
 
-ex counted(const ex& amount) {
-  return real_floor(amount + Amount::constant(noise).expression()).hold();
+ex counted_form(const ex& amount) {
+  return real_floor(amount).hold();
 }
 
 ex number(double value) {
   return std::abs(value) < 1e-12 ? ex(0) : Amount::constant(value).expression();
 }
+
+template <>
+Rotor<ex> rotor_of(const ex& angle) {
+  return {GiNaC::sin(angle), GiNaC::cos(angle)};
+}
+
+namespace {
+
+Triple<ex> numbers(const Vec3& v) {
+  return {number(v.x()), number(v.y()), number(v.z())};
+}
+
+}  // namespace
 
 SymbolicMotion symbolic_motion(const Shape& shape, PartIndex part, const std::vector<Step>& steps) {
   const Corners& rest = shape.parts[part].hexahedron.corners;
@@ -127,7 +136,7 @@ SymbolicMotion symbolic_motion(const Shape& shape, PartIndex part, const std::ve
     const ResolvedOperator& what = step.what;
     if (!is_geometric(what.op)) {
       const Corners field = group_field(shape, part, what.op, step.anchor);
-      const ex amount = what.op == Op::change_count ? counted(step.amount) : step.amount;
+      const ex amount = what.op == Op::change_count ? counted_form(step.amount) : step.amount;
       for (std::size_t k = 0; k < 8; ++k) {
         for (std::size_t c = 0; c < 3; ++c) {
           moved[k][c] += number(field(static_cast<int>(k), static_cast<int>(c))) * amount;
@@ -135,55 +144,13 @@ SymbolicMotion symbolic_motion(const Shape& shape, PartIndex part, const std::ve
       }
       continue;
     }
+    const Displacement<ex> displacement(what.op, numbers(what.direction), numbers(what.normal), step.amount);
     for (std::size_t k = 0; k < 8; ++k) {
       if (!selects(what.feature, static_cast<int>(k))) continue;
-      // Every operator but rotate adds amount · L(H − o) + amount · t, L linear; rotate adds sin·(n × r) + (cos −
-      // 1)·r⊥.
-      std::array<ex, 3> r;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto i = static_cast<int>(c);
-        r[c] = number(rest(static_cast<int>(k), i) - what.origin[i]) + moved[k][c];
-      }
-      const auto linear = [&](const Mat3& m, std::size_t row) {
-        ex sum = 0;
-        for (std::size_t c = 0; c < 3; ++c) sum += number(m(static_cast<int>(row), static_cast<int>(c))) * r[c];
-        return sum;
-      };
-      const Vec3& n = what.direction;
-      Mat3 first = Mat3::Zero();
-      Mat3 second = Mat3::Zero();  // rotate only: the factor of (cos − 1)
-      Vec3 constant = Vec3::Zero();
-      switch (what.op) {
-        case Op::translate:
-          constant = n;
-          break;
-        case Op::scale_1d:
-          first = n * n.transpose();
-          break;
-        case Op::scale_2d:
-          first = Mat3::Identity() - what.normal * what.normal.transpose();
-          break;
-        case Op::scale_3d:
-          first = Mat3::Identity();
-          break;
-        case Op::shear:
-          first = n * what.normal.transpose();
-          break;
-        case Op::rotate:
-          first << 0, -n.z(), n.y(), n.z(), 0, -n.x(), -n.y(), n.x(), 0;
-          second = Mat3::Identity() - n * n.transpose();
-          break;
-        default:
-          break;
-      }
-      for (std::size_t c = 0; c < 3; ++c) {
-        const ex direction = linear(first, c) + number(constant[static_cast<int>(c)]);
-        if (what.op == Op::rotate) {
-          moved[k][c] += GiNaC::sin(step.amount) * direction + (GiNaC::cos(step.amount) - 1) * linear(second, c);
-        } else {
-          moved[k][c] += step.amount * direction;
-        }
-      }
+      Triple<ex> lever = numbers(rest.row(static_cast<int>(k)).transpose() - what.origin);
+      for (std::size_t c = 0; c < 3; ++c) lever[c] += moved[k][c];
+      const Triple<ex> by = displacement(lever);
+      for (std::size_t c = 0; c < 3; ++c) moved[k][c] += by[c];
     }
   }
   return moved;

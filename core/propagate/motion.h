@@ -58,7 +58,7 @@ SymbolicMotion symbolic_motion(const Shape& shape, PartIndex part, const std::ve
 
 /// What change_count adds in closed form: the amount rounded down as the evaluator does it (core/edit/evaluate.h),
 /// jumps at the same values of the parameter.
-GiNaC::ex counted(const GiNaC::ex& amount);
+GiNaC::ex counted_form(const GiNaC::ex& amount);
 
 /// The closed form of a double: an exact rational when it is a short decimal, 0 when it is noise.
 GiNaC::ex number(double value);

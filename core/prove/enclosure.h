@@ -5,31 +5,14 @@
 // intervals).
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "core/edit/program.h"
-#include "core/prove/jet.h"
+#include "core/prove/casework.h"
+#include "core/prove/jet_state.h"
 #include "core/shape/shape.h"
 
 namespace parsel {
-
-using JetPoint = std::array<Jet, 3>;
-using JetCorners = std::array<JetPoint, 8>;
-
-/// GroupState on jets.
-struct JetGroup {
-  std::vector<JetCorners> instances;
-  bool count_changed = false;
-  JetPoint start, end;    ///< translation
-  JetPoint centre, axis;  ///< rotation
-  Jet radius;             ///< rotation
-};
-
-struct JetState {
-  PartData<JetCorners> parts;
-  RelationData<JetGroup> groups;  ///< empty for relations that are no group
-};
 
 /// One layer of a program, ready to be evaluated over ranges of its parameter.
 class Enclosure {
@@ -38,13 +21,21 @@ class Enclosure {
   /// outlive this object.
   Enclosure(const Shape& shape, const Program& program, std::size_t layer);
 
-  /// The state as jets of the layer's parameter, at a point (low == high) or over a range. Jets are not `defined` where
-  /// no bound is known: amounts with singularities, a count that jumps inside the range, and the instances of a group
-  /// whose parent, already moved in this layer, is then edited by a feature (their local coordinates in it vary).
-  JetState operator()(const Interval& x) const;
+  /// The state as jets of the layer's parameter, at a point (low == high) or over a range, where jumps and kinks are as
+  /// `cases` say. Jets are not `defined` where no bound is known: amounts with singularities, a count that jumps inside
+  /// the range without a case, and the instances of a group whose parent, already moved in this layer, is then edited
+  /// by a feature (their local coordinates in it vary).
+  JetState operator()(const Interval& x, const std::vector<Case>& cases = {}) const;
 
   /// Whether every amount is defined, without kink or jump over a range of the layer's parameter; so is every count.
   bool is_smooth(const Interval& x) const;
+
+  /// All cases that are possible on the range: at each of its points the state is as one of them says. {{}} when
+  /// nothing jumps; nothing when there are more than `most`.
+  std::vector<std::vector<Case>> cases_over(const Interval& x, std::size_t most) const;
+
+  /// Whether all amounts of the layer are shown to be defined and smaller than `limit` in size over the range.
+  bool amounts_below(double limit, const Interval& x) const;
 
  private:
   struct Step {
@@ -56,9 +47,17 @@ class Enclosure {
     std::optional<PointReference> origin;
     std::optional<DirectionReference> direction, normal;
     CompiledAmount amount;
+    std::vector<std::size_t> questions;  ///< by instruction, see Casework
+    std::size_t count = 0;               ///< the question that change_count asks
+
+    /// What the operator is given: the amount, whole for change_count.
+    Jet value(const Jet* parameters, const std::vector<Case>& cases, std::vector<OpenQuestion>* open) const;
   };
 
-  void run(const std::vector<Step>& steps, const std::vector<Jet>& parameters, JetState& state) const;
+  void run(const std::vector<Step>& steps, const std::vector<Jet>& parameters, const std::vector<Case>& cases,
+           JetState& state) const;
+  std::vector<Jet> parameters_over(const Interval& x) const;
+  bool extend(const Interval& x, std::vector<Case>& cases, std::size_t most, std::vector<std::vector<Case>>& all) const;
 
   const Shape* shape_;
   std::size_t layer_;

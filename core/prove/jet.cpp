@@ -10,9 +10,6 @@ namespace parsel {
 namespace {
 
 constexpr std::size_t full = Jet::order + 1;
-/// CompiledAmount takes the root of a negative number down to -1e-12, the noise of an expanded square, for 0.
-constexpr double root_noise = 1e-12;
-
 /// Carries the flags of the operands over; a jet that is not smooth keeps its value only.
 Jet with_flags(Jet result, const Jet& a, const Jet& b) {
   result.smooth = result.smooth && a.smooth && b.smooth;
@@ -172,7 +169,7 @@ Jet operator/(const Jet& a, const Jet& b) {
 }
 
 Jet sqrt(const Jet& a) {
-  if (!(a.c[0].low >= -root_noise)) return undefined();
+  if (!(a.c[0].low >= -amount_noise)) return undefined();
   const Interval value = sqrt(a.c[0]);
   // The slope is infinite at 0.
   if (a.size > 1 && !(a.c[0].low > 0)) return rough(value, a, a);
@@ -201,10 +198,9 @@ SineCosine sine_cosine(const Jet& a) {
 }
 
 Jet atan2(const Jet& y, const Jet& x) {
+  if (may_meet_cut(y.c[0], x.c[0])) return rough(atan2(Interval(-1, 1), Interval(-1, 1)), y, x);
   const Interval value = atan2(y.c[0], x.c[0]);
   if (y.size == 1 && x.size == 1) return with_flags(Jet(value), y, x);
-  const bool away_from_cut = x.c[0].low > 0 || y.c[0].low > 0 || y.c[0].high < 0;
-  if (!away_from_cut) return rough(value, y, x);
   // θ'·(x² + y²) = x·y' - y·x'
   Jet slope_y;
   Jet slope_x;
@@ -227,8 +223,10 @@ Jet abs(const Jet& a) {
 
 Jet floor(const Jet& a) {
   const Interval value = floor(a.c[0]);
-  if (value.low == value.high) return with_flags(Jet(value), a, a);
-  return rough(value, a, a);
+  if (value.low != value.high) return rough(value, a, a);
+  Jet result(value);  // constant, whatever lies under it
+  result.defined = a.defined;
+  return result;
 }
 
 Jet min(const Jet& a, const Jet& b) {
@@ -247,91 +245,12 @@ Jet power(const Jet& base, const Jet& exponent) {
   if (constant == std::floor(constant) && std::abs(constant) <= 64) {
     Jet product(1.0);
     for (int i = 0; i < static_cast<int>(std::abs(constant)); ++i) product = product * base;
+    const Interval plain = integer_power(base.c[0], std::abs(constant));
+    product.c[0] = {std::max(product.c[0].low, plain.low), std::min(product.c[0].high, plain.high)};
     return constant < 0 ? Jet(1.0) / product : product;
   }
   if (!(base.c[0].low > 0)) return undefined();
   return smooth_power(base, constant, power(base.c[0], constant));
-}
-
-Jet evaluate(const CompiledAmount& amount, const Jet* parameters) {
-  using Op = CompiledAmount::Op;
-  std::vector<Jet> stack;
-  const auto pop = [&] {
-    PARSEL_ASSERT(!stack.empty(), "compiled code balances its stack");
-    Jet top = stack.back();
-    stack.pop_back();
-    return top;
-  };
-  for (const CompiledAmount::Instruction& instruction : amount.code()) {
-    switch (instruction.op) {
-      case Op::constant:
-        stack.emplace_back(instruction.constant);
-        continue;
-      case Op::parameter:
-        stack.push_back(parameters[instruction.parameter]);
-        continue;
-      default:
-        break;
-    }
-    const Jet b = pop();
-    switch (instruction.op) {
-      case Op::negate:
-        stack.push_back(-b);
-        continue;
-      case Op::sqrt:
-        stack.push_back(sqrt(b));
-        continue;
-      case Op::abs:
-        stack.push_back(abs(b));
-        continue;
-      case Op::floor:
-        stack.push_back(floor(b));
-        continue;
-      case Op::sin:
-        stack.push_back(sine_cosine(b).sine);
-        continue;
-      case Op::cos:
-        stack.push_back(sine_cosine(b).cosine);
-        continue;
-      case Op::tan: {
-        const SineCosine both = sine_cosine(b);
-        stack.push_back(both.sine / both.cosine);
-        continue;
-      }
-      default:
-        break;
-    }
-    const Jet a = pop();
-    switch (instruction.op) {
-      case Op::add:
-        stack.push_back(a + b);
-        break;
-      case Op::subtract:
-        stack.push_back(a - b);
-        break;
-      case Op::multiply:
-        stack.push_back(a * b);
-        break;
-      case Op::divide:
-        stack.push_back(a / b);
-        break;
-      case Op::power:
-        stack.push_back(power(a, b));
-        break;
-      case Op::atan2:
-        stack.push_back(atan2(a, b));
-        break;
-      case Op::min:
-        stack.push_back(min(a, b));
-        break;
-      case Op::max:
-        stack.push_back(max(a, b));
-        break;
-      default:
-        PARSEL_ASSERT(false, "every instruction is handled");
-    }
-  }
-  return pop();
 }
 
 double bound(const Jet& at_middle, const Jet& over_range, double radius) {

@@ -12,7 +12,7 @@
 #include <cstddef>
 
 #include "core/amount/amount.h"
-#include "core/prove/interval.h"
+#include "core/amount/interval.h"
 
 namespace parsel {
 
@@ -55,12 +55,8 @@ Jet abs(const Jet& a);
 Jet floor(const Jet& a);
 Jet min(const Jet& a, const Jet& b);
 Jet max(const Jet& a, const Jet& b);
-/// Constant exponents only; another one gives an undefined jet.
+/// Constant exponents only; another one gives an undefined jet. An even power is never negative.
 Jet power(const Jet& base, const Jet& exponent);
-
-/// The jet of a compiled amount. Undefined values follow CompiledAmount: a jet that is `defined` belongs to a function
-/// that is real on the whole range.
-Jet evaluate(const CompiledAmount& amount, const Jet* parameters);
 
 /// An upper bound of |f| over [m - radius, m + radius] from the jets at m and over that range; infinite when it may be
 /// undefined there.

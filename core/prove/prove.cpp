@@ -13,18 +13,24 @@ namespace {
 
 constexpr double closed_ratio = 1e-2;  ///< a bound this near to a value that occurs is as good as the maximum
 constexpr double closed_noise = 1e-6;  ///< … or this near, in the normalised frame
-/// Wider than the 1e-9 that change_count forgives, so that a count and a floor() that jump as one are one jump.
+/// Jumps are bracketed to this: narrow enough that what is continuous changes by less than closed_noise in a bracket,
+/// wide enough that a jump costs few halvings.
 constexpr double bracket_width = 1e-8;
-constexpr int most_brackets = 4000;  ///< amounts looked at while bracketing jumps
-constexpr int most_pieces = 96;      ///< pieces bounded, per layer
-constexpr int coarse_samples = 5;    ///< the search itself looks at the middle of every piece
+constexpr int most_brackets = 4000;      ///< amounts looked at while bracketing jumps
+constexpr std::size_t most_cases = 8;    ///< of a bracket: three questions of two answers
+constexpr std::size_t most_pieces = 96;  ///< bounded beyond those between and around jumps, per layer
+constexpr int coarse_samples = 5;        ///< the search itself looks at the middle of every piece
 constexpr int dense_samples = 257;
 
-/// Splits a range where an amount jumps or has a kink: the closed segments between the brackets.
-std::vector<Interval> smooth_segments(const Enclosure& enclosure, double low, double high) {
-  std::vector<Interval> segments;
+struct Segment {
+  Interval range;
+  bool bracket = false;  ///< an amount jumps or has a kink in it, as far as can be seen
+};
+
+/// Splits a range where an amount jumps or has a kink: brackets and what lies between them, side by side, no gap.
+std::vector<Segment> smooth_segments(const Enclosure& enclosure, double low, double high) {
+  std::vector<Segment> segments;
   std::vector<Interval> waiting = {{low, high}};
-  bool extends = false;  // the last segment ends where the next piece starts
   for (int looked = 0; !waiting.empty(); ++looked) {
     const Interval piece = waiting.back();
     waiting.pop_back();
@@ -34,18 +40,11 @@ std::vector<Interval> smooth_segments(const Enclosure& enclosure, double low, do
     if (!smooth && divisible) {
       waiting.push_back({middle, piece.high});
       waiting.push_back({piece.low, middle});
-      continue;
+    } else if (smooth && !segments.empty() && !segments.back().bracket) {
+      segments.back().range.high = piece.high;
+    } else {
+      segments.push_back({piece, !smooth});
     }
-    // A piece that was given up for want of budget stays, so that nothing but true brackets is left out.
-    const bool bracket = !smooth && piece.high - piece.low <= bracket_width;
-    if (!bracket) {
-      if (extends) {
-        segments.back().high = piece.high;
-      } else {
-        segments.push_back(piece);
-      }
-    }
-    extends = !bracket;
   }
   return segments;
 }
@@ -55,21 +54,28 @@ struct Search {
   Constraint constraint;
   double lower = 0;  ///< it occurs
   double upper = 0;  ///< over the pieces that are done
+  double tolerance = 0;
+  std::vector<double> loose;  ///< middles of pieces whose bound stayed loose
 
-  double good_enough() const { return lower * (1 + closed_ratio) + closed_noise; }
+  /// Whether a bound says enough: near to what occurs, and on the same side of the tolerance.
+  bool is_good(double bound) const {
+    return bound <= lower * (1 + closed_ratio) + closed_noise && (bound <= tolerance || lower > tolerance);
+  }
 };
 
 struct Piece {
   Interval range;
+  bool bracket;
   std::vector<std::size_t> searches;  ///< relations whose bound is not good enough around here
 };
 
-/// An upper bound of the deviation over a piece; raises `lower` by what occurs in its middle.
-double bound_piece(Search& search, const JetState& at_middle, const JetState& over, double radius,
+/// An upper bound of the deviation over a piece from the states in its middle and over it; raises `lower` by what
+/// occurs in the middle, unless the state there is that of a case, which need not occur.
+double bound_piece(Search& search, const JetState& at_middle, const JetState& over, double radius, bool occurs,
                    std::vector<Jet>& middle_jets) {
   middle_jets.clear();
   for_each_deviation(search.constraint, at_middle, [&](const Jet& jet) {
-    if (jet.defined) search.lower = std::max(search.lower, jet.c[0].mignitude());
+    if (occurs && jet.defined) search.lower = std::max(search.lower, jet.c[0].mignitude());
     middle_jets.push_back(jet);
   });
   double worst = 0;
@@ -84,43 +90,52 @@ double bound_piece(Search& search, const JetState& at_middle, const JetState& ov
 }
 
 /// Branch and bound over the segments, all relations together, so that a piece's state is made once.
-void bound_all(const Enclosure& enclosure, const std::vector<Interval>& segments, std::vector<Search>& searches) {
+void bound_all(const Enclosure& enclosure, const std::vector<Segment>& segments, std::vector<Search>& searches) {
   std::vector<Piece> waiting;
   std::vector<std::size_t> all(searches.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  for (const Interval& segment : segments) waiting.push_back({segment, all});
+  for (const Segment& segment : segments) waiting.push_back({segment.range, segment.bracket, all});
+  const std::size_t most = segments.size() + most_pieces;
   std::vector<Jet> scratch;
+  std::vector<double> worst(searches.size());
   // Breadth first: the budget goes to every segment alike, and `lower` grows early.
   for (std::size_t next = 0; next < waiting.size(); ++next) {
     const Piece piece = std::move(waiting[next]);
     const double middle = piece.range.low + (piece.range.high - piece.range.low) / 2;
     const double radius = detail::up(std::max(piece.range.high - middle, middle - piece.range.low));
-    const JetState at_middle = enclosure(Interval(middle));
-    const JetState over = enclosure(piece.range);
-    const bool divisible = waiting.size() + 2 <= most_pieces;
-    std::vector<std::size_t> loose;
-    for (const std::size_t i : piece.searches) {
-      const double worst = bound_piece(searches[i], at_middle, over, radius, scratch);
-      if (worst <= searches[i].good_enough() || !divisible) {
-        searches[i].upper = std::max(searches[i].upper, worst);
-      } else {
-        loose.push_back(i);
+    std::vector<std::vector<Case>> cases;
+    if (piece.bracket) cases = enclosure.cases_over(piece.range, most_cases);
+    if (cases.empty()) cases.emplace_back();
+    for (const std::size_t i : piece.searches) worst[i] = 0;
+    for (const std::vector<Case>& given : cases) {
+      const JetState at_middle = enclosure(Interval(middle), given);
+      const JetState over = enclosure(piece.range, given);
+      for (const std::size_t i : piece.searches) {
+        worst[i] = std::max(worst[i], bound_piece(searches[i], at_middle, over, radius, given.empty(), scratch));
       }
     }
+    const bool divisible = waiting.size() + 2 <= most && piece.range.low < middle && middle < piece.range.high;
+    std::vector<std::size_t> loose;
+    for (const std::size_t i : piece.searches) {
+      const bool good = searches[i].is_good(worst[i]);
+      if (!good && divisible) {
+        loose.push_back(i);
+        continue;
+      }
+      searches[i].upper = std::max(searches[i].upper, worst[i]);
+      if (!good) searches[i].loose.push_back(middle);
+    }
     if (loose.empty()) continue;
-    waiting.push_back({{piece.range.low, middle}, loose});
-    waiting.push_back({{middle, piece.range.high}, loose});
+    waiting.push_back({{piece.range.low, middle}, piece.bracket, loose});
+    waiting.push_back({{middle, piece.range.high}, piece.bracket, loose});
   }
 }
 
-std::vector<double> sample_values(const std::vector<Interval>& segments, double low, double high, int count) {
+std::vector<double> sample_values(const std::vector<Segment>& segments, double low, double high, int count) {
   std::vector<double> values;
   for (int i = 0; i < count; ++i) values.push_back(low + (high - low) * i / (count - 1));
   values.back() = high;
-  for (const Interval& segment : segments) {
-    values.push_back(segment.low);
-    values.push_back(segment.high);
-  }
+  for (std::size_t s = 1; s < segments.size(); ++s) values.push_back(segments[s].range.low);
   return values;
 }
 
@@ -143,7 +158,8 @@ std::vector<RelationReport> prove_relations(const Shape& shape, const Program& p
   const State at_rest = evaluator(values);
   for (const RelationIndex r : scope.relations) {
     Constraint constraint = make_constraint(shape, r);
-    if (exists(constraint, at_rest)) searches.push_back({std::move(constraint)});
+    const double tolerance = tolerance_of(shape.relations[r], scope);
+    if (exists(constraint, at_rest)) searches.push_back({std::move(constraint), 0, 0, tolerance, {}});
   }
   const auto sample = [&](const std::vector<double>& xs, const std::vector<std::size_t>& wanted) {
     for (const double x : xs) {
@@ -154,25 +170,30 @@ std::vector<RelationReport> prove_relations(const Shape& shape, const Program& p
       }
     }
   };
-  const std::vector<Interval> segments = smooth_segments(enclosure, parameter.min, parameter.max);
+  const std::vector<Segment> segments = smooth_segments(enclosure, parameter.min, parameter.max);
   std::vector<std::size_t> open(searches.size());
   for (std::size_t i = 0; i < open.size(); ++i) open[i] = i;
   sample(sample_values(segments, parameter.min, parameter.max, coarse_samples), open);
   bound_all(enclosure, segments, searches);
 
-  const auto is_certified = [&](const Search& search) {
-    const double tolerance = tolerance_of(*search.constraint.relation, scope);
+  const auto is_certified = [](const Search& search) {
     // A proven bound below a value that occurs would be a contradiction: never call that a proof.
     const bool consistent = search.upper + closed_noise >= search.lower;
-    return consistent && (search.upper <= search.good_enough() || search.upper <= tolerance);
+    const bool held = std::max(search.upper, search.lower) <= search.tolerance;
+    return consistent && (held || search.is_good(search.upper));
   };
   open.clear();
+  std::vector<double> dense = sample_values(segments, parameter.min, parameter.max, dense_samples);
   std::vector<bool> certified_ones;
   for (std::size_t i = 0; i < searches.size(); ++i) {
     certified_ones.push_back(is_certified(searches[i]));
-    if (!certified_ones[i]) open.push_back(i);
+    if (certified_ones[i]) continue;
+    open.push_back(i);
+    dense.insert(dense.end(), searches[i].loose.begin(), searches[i].loose.end());
   }
-  if (!open.empty()) sample(sample_values(segments, parameter.min, parameter.max, dense_samples), open);
+  std::sort(dense.begin(), dense.end());
+  dense.erase(std::unique(dense.begin(), dense.end()), dense.end());
+  if (!open.empty()) sample(dense, open);
 
   std::vector<RelationReport> reports;
   for (std::size_t i = 0; i < searches.size(); ++i) {
@@ -183,7 +204,8 @@ std::vector<RelationReport> prove_relations(const Shape& shape, const Program& p
     report.id = relation.id;
     report.proof = certified ? Proof::certified : Proof::sampled;
     report.worst = certified ? std::max(search.upper, search.lower) : search.lower;
-    const bool held = report.worst <= tolerance_of(relation, scope);
+    if (!certified) report.samples = static_cast<int>(dense.size());
+    const bool held = report.worst <= search.tolerance;
     report.status = is_disabled(relation, disabled) ? RelationStatus::disabled
                     : held                          ? RelationStatus::held
                                                     : RelationStatus::broken;

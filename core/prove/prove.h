@@ -1,10 +1,10 @@
 // Which relations a program keeps over the whole range of a layer's parameter, and how surely. ParSEL §5.2, equation 1.
 //
-// The paper checks ‖C(x)‖∞ < δ at random values of x. Here the closed form is bounded over the range: Taylor jets of
-// intervals (jet.h) for every coordinate of C, on pieces of the range that are halved where the bound is loose. Jumps
-// and kinks (floor, abs, min, max, a count that changes) are bracketed first, to a width of 1e-8, and the pieces
-// between them bounded one by one. The brackets themselves, of which no slider sees the inside, are taken to be like
-// their two ends.
+// The paper checks ‖C(x)‖∞ < δ at random values of x. Here the closed form is bounded over the whole range, no point
+// left out: Taylor jets of intervals (jet.h) for every coordinate of C, on pieces of the range that are halved where
+// the bound is loose. Jumps and kinks (floor, abs, min, max, a count that changes) are bracketed first, to a width of
+// 1e-8; the pieces between are bounded one by one, and the brackets once for each case that is possible in them (see
+// Casework).
 //
 // What the bound speaks of: amounts as compiled to doubles, M_a and M_b as the doubles they are, all else exact.
 #pragma once
@@ -27,9 +27,11 @@ namespace parsel {
 ///
 ///   status  held when `worst` is within the tolerance of the relation (slack.h), else broken; disabled as `disabled` says.
 ///   worst   largest deviation of a coordinate over the range (see deviation.h), for disabled relations too.
-///   proof   certified: `worst` is a proven upper bound, which either keeps the tolerance or exceeds a value that
-///           really occurs by at most 1 % and 1e-6. sampled: no such bound was found (see Enclosure for when); `worst` is
-///           the largest of 257 evenly spaced samples, ends included, and of both sides of every jump.
+///   proof   certified: `worst` is a proven upper bound over the whole range, which either keeps the tolerance or
+///           exceeds a value that really occurs by at most 1 % and 1e-6; of a broken one that value exceeds the
+///           tolerance. sampled: no such bound was found (see Enclosure for when); `worst` is the largest of `samples`
+///           values of the parameter: 257 evenly spaced ones, ends included, both sides of every jump, and the middles
+///           of the pieces on which the bound stayed loose.
 ///
 /// `program` passed validate() for `shape`; the parameter's range contains 0. Deterministic.
 /// Measured (native, -O3): see tests/bench/bench_prove.cpp.

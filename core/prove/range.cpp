@@ -1,10 +1,13 @@
 #include "core/prove/range.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <tuple>
+#include <deque>
 
 #include "core/edit/evaluate.h"
+#include "core/prove/enclosure.h"
 #include "core/prove/scope.h"
 
 namespace parsel {
@@ -14,13 +17,37 @@ namespace {
 constexpr int steps = 48;
 constexpr double precision = 1e-6;  ///< of the limit
 constexpr double decimals = 1e4;
+/// Pieces of a side's range that are looked at to show that nothing goes wrong between the steps, and how narrow they
+/// may become, as a share of the limit. Fewer, and a spike beside a smooth collapse is not reached; an end that was
+/// found by bisection alone takes some ten.
+constexpr int most_pieces = 160;
+constexpr double narrowest = 1e-9;
+constexpr std::size_t most_cases = 8;
 /// Instances of a row that stand nearer than this at rest, in their own thicknesses, may overlap: they touch already.
 constexpr double least_room = 0.1;
+
+/// Six times the volume at a corner: the determinant of the edges that meet there.
+double corner_volume(const Corners& corners, int k) {
+  Mat3 edges;
+  for (int axis = 0; axis < 3; ++axis) edges.row(axis) = corners.row(k | 1 << axis) - corners.row(k & ~(1 << axis));
+  return edges.determinant();
+}
+Jet corner_volume(const JetCorners& corners, int k) {
+  std::array<JetPoint, 3> edges;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      edges[static_cast<std::size_t>(axis)][c] =
+          corners[static_cast<std::size_t>(k | 1 << axis)][c] - corners[static_cast<std::size_t>(k & ~(1 << axis))][c];
+    }
+  }
+  const auto& [a, b, d] = edges;
+  return a[0] * (b[1] * d[2] - b[2] * d[1]) + a[1] * (b[2] * d[0] - b[0] * d[2]) + a[2] * (b[0] * d[1] - b[1] * d[0]);
+}
 
 class Limits {
  public:
   Limits(const Shape& shape, Program program, std::size_t layer)
-      : shape_(shape), layer_(layer), evaluator_(program, shape) {
+      : shape_(shape), layer_(layer), evaluator_(program, shape), enclosure_(shape, program, layer) {
     std::vector<std::string> names;
     for (const Layer& l : program.layers) {
       names.push_back(l.parameter.name);
@@ -34,6 +61,14 @@ class Limits {
     const Scope scope = scope_of(shape, program, layer, {});
     dissolved_ = scope.dissolved;
     edited_ = scope.edited;
+  }
+
+  /// Whether it is shown that nothing goes wrong on a piece of the range: amounts, and every cage, from jets.
+  bool is_proven(const Interval& x) const {
+    if (!enclosure_.amounts_below(largest_amount, x)) return false;
+    const auto cases = enclosure_.cases_over(x, most_cases);
+    return !cases.empty() && std::all_of(cases.begin(), cases.end(),
+                                         [&](const std::vector<Case>& given) { return keeps_cages(x, given); });
   }
 
   /// What goes wrong at x; empty when nothing does.
@@ -52,9 +87,8 @@ class Limits {
       if (!fault.empty()) return fault;
     }
     for (const RelationIndex r : shape_.relations.indices()) {
+      if (!is_watched(r)) continue;
       const Relation& relation = shape_.relations[r];
-      if (!relation.is_group() || edited_.count(relation.parts[0]) == 0) continue;
-      if (std::count(dissolved_.begin(), dissolved_.end(), r) > 0) continue;
       const GroupState& group = state.groups[r];
       for (std::size_t k = 0; k < group.instances.size(); ++k) {
         const std::size_t member = group.source >= 0 ? static_cast<std::size_t>(group.source) : k;
@@ -69,6 +103,46 @@ class Limits {
   }
 
  private:
+  bool keeps_cages(const Interval& x, const std::vector<Case>& given) const {
+    const double middle = x.low + (x.high - x.low) / 2;
+    const double radius = detail::up(std::max(x.high - middle, middle - x.low));
+    const JetState at_middle = enclosure_(Interval(middle), given);
+    const JetState over = enclosure_(x, given);
+    const auto keeps = [&](const JetCorners& mid, const JetCorners& all, const Corners& rest) {
+      for (int k = 0; k < 8; ++k) {
+        const double at_rest = corner_volume(rest, k);
+        const Jet centre = (1 / at_rest) * corner_volume(mid, k);
+        const double here = (centre.c[0].low + centre.c[0].high) / 2;
+        // The ratio stays within what it may lose from the middle of the piece.
+        const double change = bound(centre - Jet(here), (1 / at_rest) * corner_volume(all, k) - Jet(here), radius);
+        if (!(change <= here - collapse_ratio)) return false;
+      }
+      return true;
+    };
+    for (const PartIndex p : shape_.parts.indices()) {
+      if (edited_.count(p) == 0 || !is_active(shape_, p, dissolved_)) continue;
+      if (!keeps(at_middle.parts[p], over.parts[p], shape_.parts[p].hexahedron.corners)) return false;
+    }
+    for (const RelationIndex r : shape_.relations.indices()) {
+      if (!is_watched(r)) continue;
+      const auto& members = shape_.relations[r].parts;
+      const std::vector<JetCorners>& instances = over.groups[r].instances;
+      for (std::size_t k = 0; k < instances.size(); ++k) {
+        // Instances of a group have one size.
+        const Corners& rest = shape_.parts[members[std::min(k, members.size() - 1)]].hexahedron.corners;
+        if (k >= at_middle.groups[r].instances.size()) return false;
+        if (!keeps(at_middle.groups[r].instances[k], instances[k], rest)) return false;
+      }
+    }
+    return true;
+  }
+
+  bool is_watched(RelationIndex r) const {
+    const Relation& relation = shape_.relations[r];
+    return relation.is_group() && edited_.count(relation.parts[0]) > 0 &&
+           std::count(dissolved_.begin(), dissolved_.end(), r) == 0;
+  }
+
   static std::string judge(const Corners& corners, const Corners& rest, const std::string& id) {
     const double least = relative_jacobians(corners, rest).minCoeff();
     if (least >= collapse_ratio) return "";
@@ -94,6 +168,7 @@ class Limits {
   const Shape& shape_;
   std::size_t layer_;
   Evaluator evaluator_;
+  Enclosure enclosure_;
   std::vector<CompiledAmount> amounts_;
   std::vector<std::string> targets_;
   std::vector<RelationIndex> dissolved_;
@@ -101,29 +176,59 @@ class Limits {
   std::vector<double> values_;
 };
 
-/// The last good value from 0 towards `end`, and why no further.
-std::pair<double, std::string> search(Limits& limits, double end) {
+struct End {
+  double x = 0;
+  std::string reason;
+};
+
+/// Where it goes wrong between `good`, where it does not, and `bad`, where it does for `reason`.
+End bisect(Limits& limits, double good, double bad, std::string reason, double limit) {
+  while (std::abs(bad - good) > limit * precision) {
+    const double middle = (good + bad) / 2;
+    std::string here = limits.failure(middle);
+    if (here.empty()) {
+      good = middle;
+    } else {
+      bad = middle;
+      reason = std::move(here);
+    }
+  }
+  return {std::trunc(good * decimals) / decimals, std::move(reason)};
+}
+
+/// The last good value from 0 towards `end` as far as steps show, and why no further.
+End search(Limits& limits, double end) {
   double good = 0;
   for (int i = 1; i <= steps; ++i) {
-    double bad = i == steps ? end : end * i / steps;
-    std::string reason = limits.failure(bad);
-    if (reason.empty()) {
-      good = bad;
-      continue;
-    }
-    while (std::abs(bad - good) > std::abs(end) * precision) {
-      const double middle = (good + bad) / 2;
-      std::string here = limits.failure(middle);
-      if (here.empty()) {
-        good = middle;
-      } else {
-        bad = middle;
-        reason = std::move(here);
-      }
-    }
-    return {std::trunc(good * decimals) / decimals, std::move(reason)};
+    const double next = i == steps ? end : end * i / steps;
+    std::string reason = limits.failure(next);
+    if (!reason.empty()) return bisect(limits, good, next, std::move(reason), std::abs(end));
+    good = next;
   }
   return {end, "limit"};
+}
+
+/// Looks between the steps: pieces that cannot be shown to be good are halved, the widest first, and end the range
+/// where their middle fails.
+End refine(Limits& limits, End found, double limit) {
+  const double sign = found.x < 0 ? -1 : 1;
+  std::deque<Interval> waiting = {{0, std::abs(found.x)}};  // distances from 0
+  for (int looked = 0; !waiting.empty() && looked < most_pieces; ++looked) {
+    const Interval piece = waiting.front();
+    waiting.pop_front();
+    if (piece.low >= std::abs(found.x)) continue;
+    if (limits.is_proven(sign < 0 ? -piece : piece)) continue;
+    const double middle = piece.low + (piece.high - piece.low) / 2;
+    std::string reason = limits.failure(sign * middle);
+    if (!reason.empty()) {
+      const double good = limits.failure(sign * piece.low).empty() ? piece.low : 0;
+      found = bisect(limits, sign * good, sign * middle, std::move(reason), limit);
+    }
+    if (piece.high - piece.low <= limit * narrowest) continue;
+    waiting.push_back({piece.low, middle});
+    waiting.push_back({middle, piece.high});
+  }
+  return found;
 }
 
 }  // namespace
@@ -140,9 +245,9 @@ Range find_range(const Shape& shape, const Program& program, std::size_t layer, 
     range.min_reason = range.max_reason = at_rest;
     return range;
   }
-  std::tie(range.min, range.min_reason) = search(limits, -limit);
-  std::tie(range.max, range.max_reason) = search(limits, limit);
-  return range;
+  const End low = refine(limits, search(limits, -limit), limit);
+  const End high = refine(limits, search(limits, limit), limit);
+  return {low.x, high.x, low.reason, high.reason};
 }
 
 }  // namespace parsel

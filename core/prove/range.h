@@ -27,8 +27,10 @@ struct Range {
 ///
 /// `limit` > 0, usually tau; a layer whose seed is a rotation may deserve more, as its amount is an angle. Steps of
 /// limit/48 find the first failure, bisection its place to limit·1e-6; ends short of the limit are rounded towards 0 to
-/// four decimals. A failure that comes and goes within one step is not seen. When the shape fails at 0 already (an
-/// earlier layer collapsed a part), the range is [0, 0].
+/// four decimals. What lies between the steps is then bounded with jets, in pieces down to limit·1e-9: a cage that
+/// inverts within one step is found unless its pieces are more than are looked at. That instances of a row run into
+/// each other between two steps is not seen. When the shape fails at 0 already (an earlier layer collapsed a part), the
+/// range is [0, 0].
 Range find_range(const Shape& shape, const Program& program, std::size_t layer, double limit);
 
 }  // namespace parsel

@@ -130,7 +130,7 @@ TEST_CASE("the joints of instances must be told, as far as the instances exist")
         std::string::npos);
   Program bold = wider;
   for (RelationReport& report : bold.layers[0].relations) {
-    if (report.id == "a3") report = {"a3", RelationStatus::held, 0.001, Proof::certified};
+    if (report.id == "a3") report = {"a3", RelationStatus::held, 0.001, Proof::certified, {}};
   }
   CHECK_FALSE(check_program(shape, bold).accepted());
 
@@ -140,7 +140,7 @@ TEST_CASE("the joints of instances must be told, as far as the instances exist")
   later.layers[1].parameter.name = "x2";
   for (std::size_t l = 0; l < 2; ++l) later.layers[l].relations = prove_relations(shape, later, l, {});
   CHECK_MESSAGE(check_program(shape, later).accepted(), first_finding(check_program(shape, later)));
-  later.layers[1].relations.push_back({"a2", RelationStatus::held, 0, Proof::certified});
+  later.layers[1].relations.push_back({"a2", RelationStatus::held, 0, Proof::certified, {}});
   CHECK_FALSE(check_program(shape, later).accepted());
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("programs that were tampered with are rejected") {
   });
   rejects("a broken relation called held with a small bound", [](Layer& l) {
     for (RelationReport& r : l.relations) {
-      if (r.status == RelationStatus::broken) r = {r.id, RelationStatus::held, 0.001, r.proof};
+      if (r.status == RelationStatus::broken) r = {r.id, RelationStatus::held, 0.001, r.proof, {}};
     }
   });
   rejects("a bound far too large", [](Layer& l) {

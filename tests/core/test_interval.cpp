@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
+#include "core/amount/interval.h"
 #include "core/base/random.h"
-#include "core/prove/interval.h"
-#include "core/prove/jet.h"
+#include "core/prove/casework.h"
 #include "hand_shapes.h"
 
 using namespace parsel;

@@ -146,8 +146,11 @@ Program random_program(Random& random) {
     layer.parameter = {"x" + std::to_string(l), random_number(random), random_number(random), random_number(random)};
     for (std::uint64_t i = random.below(6); i > 0; --i) layer.statements.push_back(random_statement(random));
     for (std::uint64_t i = random.below(4); i > 0; --i) {
-      layer.relations.push_back({random_name(random), static_cast<RelationStatus>(random.below(3)),
-                                 random.unit() * 1e-7, static_cast<Proof>(random.below(2))});
+      layer.relations.push_back({random_name(random),
+                                 static_cast<RelationStatus>(random.below(3)),
+                                 random.unit() * 1e-7,
+                                 static_cast<Proof>(random.below(2)),
+                                 {}});
     }
     program.layers.push_back(std::move(layer));
   }
@@ -190,6 +193,26 @@ TEST_CASE("the text form reads like the paper's figure 2") {
         "  rotate(\"leg\", amount=pi*x1, origin=(0, 0.5, 0), axis=axis(\"seat\", 2))\n"
         "  keep_fixed(\"seat\")\n"
         "  relation \"a1\": held, worst 1.2e-09, certified\n");
+}
+
+TEST_CASE("a sampled report says how finely, in JSON and in text") {
+  json file = small_program();
+  json& report = file["layers"][0]["relations"][0];
+  report["proof"] = "sampled";
+  report["samples"] = 257;
+  const Program program = read(file);
+  CHECK(program.layers[0].relations[0].samples == 257);
+  CHECK(to_json(program)["layers"][0]["relations"][0]["samples"] == 257);
+  const Result<Program> again = program_from_text(to_text(program));
+  REQUIRE(again.ok());
+  CHECK(to_json(*again) == to_json(program));
+  for (const json& wrong : {json(0), json(2.5), json(1e9), json("257")}) {
+    json bad = file;
+    bad["layers"][0]["relations"][0]["samples"] = wrong;
+    CHECK(program_from_json(bad).error().place == "/layers/0/relations/0/samples");
+  }
+  report["proof"] = "certified";
+  CHECK(program_from_json(file).error().place == "/layers/0/relations/0/samples");
 }
 
 TEST_CASE("text is written by hand: comments, blanks, order of fields, line ends") {
@@ -356,7 +379,7 @@ TEST_CASE("a layer may have as many reports as are written, and no reader takes 
   const Shape shape = hand::slats();
   Program program = hand::program(shape, {hand::statement(Op::translate, "rail", Vec3::UnitX(), "x1")});
   program.layers[0].relations.assign(ProgramLimits::reports,
-                                     {"a1", RelationStatus::held, 0.012345678901234, Proof::certified});
+                                     {"a1", RelationStatus::held, 0.012345678901234, Proof::certified, {}});
   CHECK(readable(program, shape).ok());
   std::string text = to_text(program);
   CHECK(program_from_text(text).ok());

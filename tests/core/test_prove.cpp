@@ -20,7 +20,7 @@ const RelationReport& find(const std::vector<RelationReport>& reports, const std
   for (const RelationReport& report : reports) {
     if (report.id == id) return report;
   }
-  static const RelationReport missing{"missing", RelationStatus::disabled, -1, Proof::sampled};
+  static const RelationReport missing{"missing", RelationStatus::disabled, -1, Proof::sampled, {}};
   return missing;
 }
 

@@ -6,7 +6,7 @@ because the only programs it ever sees are those of program_cases.py.
 import copy
 import math
 
-FUNCTIONS = {"sqrt": math.sqrt, "abs": abs, "floor": math.floor, "sin": math.sin, "cos": math.cos, "tan": math.tan,
+FUNCTIONS = {"sqrt": math.sqrt, "abs": abs, "floor": lambda a: math.floor(a + 1e-9), "sin": math.sin, "cos": math.cos, "tan": math.tan,
              "atan2": math.atan2, "min": min, "max": max, "pi": math.pi, "__builtins__": {}}
 
 

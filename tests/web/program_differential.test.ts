@@ -1,32 +1,15 @@
 // The TypeScript evaluator against the C++ one on random programs, through `parsel evaluate`.
-//
-// The binary is PARSEL_CLI or one of build/native-*/core/parsel; without one that can evaluate, the test is skipped.
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { afterAll, describe, expect, it } from 'vitest';
 import { checkProgram } from '../../web/src/program/check';
 import { compileProgram } from '../../web/src/program/compile';
 import type { Shape } from '../../web/src/program/types';
+import { findBinary } from './binary';
 import { type WrittenState, worstDifference, writeEvaluator } from './compare_states';
 import { Random, randomProgram, randomShape, randomValues } from './random_program';
-
-function findBinary(): string | null {
-  const builds = fileURLToPath(new URL('../../build', import.meta.url));
-  const folders = existsSync(builds) ? readdirSync(builds).filter((name) => name.startsWith('native-')) : [];
-  const candidates = [process.env.PARSEL_CLI ?? '', ...folders.map((name) => join(builds, name, 'core/parsel'))];
-  return candidates.find((path) => path !== '' && existsSync(path) && canEvaluate(path)) ?? null;
-}
-
-function canEvaluate(binary: string): boolean {
-  try {
-    return /^\s*(parsel )?evaluate\b/m.test(execFileSync(binary, ['--help'], { encoding: 'utf8' }));
-  } catch {
-    return false;
-  }
-}
 
 const binary = findBinary();
 if (!binary) process.stderr.write('skipped: no `parsel evaluate`; build the command-line tool or set PARSEL_CLI\n');

@@ -74,6 +74,18 @@ describe('the text form', () => {
     ).toBe('keep_fixed("back")');
   });
 
+  it('keeps how finely a report was sampled', () => {
+    const parsed = parse(`${header}${layer}relation "a1": held, worst 0.01, sampled at 263\n`) as Program;
+    expect(parsed.layers[0]?.relations[0]).toEqual({
+      id: 'a1',
+      status: 'held',
+      worst: 0.01,
+      proof: 'sampled',
+      samples: 263,
+    });
+    expect(programText(parsed)).toContain('relation "a1": held, worst 0.01, sampled at 263');
+  });
+
   it('leaves blanks, comments and the order of fields free', () => {
     const tidy = `${header}${layer}rotate("a", amount=max(x1, 0), origin=(0, 1, 2), axis=axis("b", 1)) because seed\n`;
     const wild =

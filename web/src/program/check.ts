@@ -32,7 +32,7 @@ export interface CheckedProgram {
   readonly [checked]: true;
 }
 
-/** Evaluated interval nodes that all amounts of a program may take together: about half a second. */
+/** Operations on intervals that all amounts of a program may take together: judging_budget in core/amount/amount_range.h. */
 const domainBudget = 2_000_000;
 
 /** No list of a program is longer; which is which is seen by the schema. */
@@ -279,7 +279,7 @@ class Checker {
 
   private domain(expression: Expression, magnitude: number, place: string): void {
     const fault = findDomainFault(expression, this.ranges, this.budget, magnitude);
-    if (this.budget.nodes <= 0) this.refuse(place, 'the amounts are too many or too long to check', 'shorten them');
+    if (this.budget.nodes < 0) this.refuse(place, 'the amounts are too many or too long to check', 'shorten them');
     if (!fault) return;
     const where = [...fault.at].map(([name, value]) => `${name} = ${Number(value.toPrecision(6))}`).join(', ');
     this.refuse(

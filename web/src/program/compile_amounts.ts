@@ -4,9 +4,7 @@
 // Closures return nothing on purpose: a number that crosses a call which the engine does not inline is boxed on the
 // heap, and the slider path must not feed the garbage collector.
 import type { BinaryOperator, Expression, FunctionName } from './parse';
-
-/** Expanded closed forms end a hair below 0 where they should touch it: such arguments of a root count as 0. */
-const noise = 1e-12;
+import { countingSlack, noise } from './rounding';
 
 export interface CompiledAmounts {
   /** One value a slot. Parameter i of the constructor's list is read from slot i. */
@@ -153,7 +151,7 @@ function closure(node: Node, t: number, s: Float64Array): () => void {
       };
     case 'floor':
       return () => {
-        s[t] = Math.floor(s[a] as number);
+        s[t] = Math.floor((s[a] as number) + countingSlack);
       };
     case 'sin':
       return () => {
@@ -169,7 +167,10 @@ function closure(node: Node, t: number, s: Float64Array): () => void {
       };
     case 'atan2':
       return () => {
-        s[t] = Math.atan2(s[a] as number, s[b] as number);
+        // Beside the cut, where it jumps by 2π, y may come out a hair below 0; -0 is 0.
+        const y = s[a] as number;
+        const x = (s[b] as number) + 0;
+        s[t] = Math.atan2(x < 0 && y <= 0 && y >= noise * x ? 0 : y, x);
       };
     case 'min':
       return () => {

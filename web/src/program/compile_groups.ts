@@ -2,6 +2,7 @@
 // its instances. The semantics are those of core/edit/evaluate.h. ParSEL supplement §3.2 (top-down and bottom-up modes).
 import { CageMotion, writeAxis } from './compile_cage';
 import { applyMap } from './compile_operators';
+import { countingSlack } from './rounding';
 import { type Anchor, type GroupRelation, maxInstances } from './types';
 
 /** What the page reads of a group after evaluate(). */
@@ -20,8 +21,6 @@ export interface GroupView {
 /** Where a group's points stand in GroupView.points. */
 export const at = { start: 0, end: 3, centre: 0, axis: 3, radius: 6 } as const;
 const pointsSize = 7;
-/** Growth in floor(a): 3 · (1/3) must not become 0. */
-const roundingSlack = 1e-9;
 
 /** Indices into the flat corners of all parts. */
 export interface GroupLayout {
@@ -117,7 +116,7 @@ export class CompiledGroup implements GroupView {
 
   /** Instances + floor(slots[slot]), at least 1. All are copies of one template unless the count stays. */
   changeCount(anchor: Anchor, slots: Float64Array, slot: number): void {
-    const wanted = this.count + Math.floor((slots[slot] as number) + roundingSlack);
+    const wanted = this.count + Math.floor((slots[slot] as number) + countingSlack);
     const next = Math.min(maxInstances, Math.max(1, wanted));
     if (next === this.count) return;
     this.reserve(next);

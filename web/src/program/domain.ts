@@ -1,8 +1,19 @@
-// Is an amount real, finite and bounded wherever its parameters may go? Interval arithmetic proves it on a box of
-// parameter values; where the interval is too wide to tell, the box is halved (Moore 1966, ch. 6).
-//
-// Intervals are not rounded outward: this is a gate that must not refuse honest programs, not a proof.
-import type { Expression } from './parse';
+// Which amounts are accepted: those that interval arithmetic shows to be defined and bounded on every piece of a box of
+// parameter values; where it cannot exclude a pole, the amount is refused (Moore 1966, ch. 6). This is the rule of
+// core/amount/amount_range.h, operation by operation and box by box, so that the page accepts what the tools accept;
+// program_acceptance.test.ts holds the two against each other. Roots alone are forgiven: an expanded square that touches
+// 0 is noise below it, so pieces where nothing but the sign under a root is open count as defined when their middle is.
+import {
+  binaryOperations,
+  everything,
+  type Interval,
+  magnitudeOf,
+  mignitudeOf,
+  type Trouble,
+  unaryOperations,
+} from './interval';
+import type { BinaryOperator, Expression, FunctionName } from './parse';
+import { countingSlack, noise } from './rounding';
 
 export interface Range {
   readonly min: number;
@@ -15,31 +26,37 @@ export interface DomainFault {
   /** Parameter values, by name, at or near which it fails. */
   readonly at: ReadonlyMap<string, number>;
 }
-/** What one call, or all calls that share it, may still spend, in evaluated nodes. */
+/** What one call, or all calls that share it, may still spend, in operations on intervals; below 0: overspent. */
 export interface DomainBudget {
   nodes: number;
 }
 /** An amount larger than this in magnitude counts as infinite: everything here is of the order of 1. */
 export const maxMagnitude = 1e6;
 
-/** Arguments of sqrt and bases of powers this little below 0 are rounding noise and count as 0. */
-const noise = 1e-12;
-const boxesPerAmount = 256;
+const boxesPerAmount = 2000;
 /** Boxes narrower than this share of the range are not halved further. */
 const narrowest = 1e-9;
+/** What rounding outward adds to a value that just reaches the limit, and more. */
+const limitSlack = 1e-9;
 
-type Trouble = 'division by zero' | 'root of a negative number' | 'undefined or infinite value';
-/** All values that an expression may take on a box, and what may go wrong there. */
-interface Interval {
-  readonly low: number;
-  readonly high: number;
-  readonly trouble: { readonly kind: Trouble; readonly column: number } | null;
+/** All values that an amount may take on a box, or the first trouble in the order of its code. */
+interface Bound {
+  readonly values: Interval;
+  readonly trouble: Trouble;
+  readonly column: number;
 }
-type Box = ReadonlyMap<string, Range>;
+interface Instruction {
+  readonly op: 'number' | 'parameter' | 'negate' | BinaryOperator | FunctionName;
+  /** Of a number; of a parameter, its place among the names. */
+  readonly value: number;
+  readonly column: number;
+}
+type Box = readonly Interval[];
 
 /**
- * The values of `expression` on the box `ranges`, which must name every parameter that occurs: null when no value is
- * undefined, infinite or larger than `magnitude`, as far as `budget` allows to tell, else the first fault found.
+ * The values of `expression` on the box `ranges`, which must name every parameter that occurs: null when it is shown that
+ * no value is undefined, infinite or larger than `magnitude`, else the first fault found. Spends `budget`; null when it
+ * is overspent.
  */
 export function findDomainFault(
   expression: Expression,
@@ -48,8 +65,51 @@ export function findDomainFault(
   magnitude = maxMagnitude,
 ): DomainFault | null {
   const names = [...parametersOf(expression)].sort();
-  const whole = new Map(names.map((name) => [name, ranges.get(name) ?? { min: 0, max: 0 }]));
-  return search(expression, whole, budget, magnitude);
+  const whole = names.map((name): Interval => {
+    const { min, max } = ranges.get(name) ?? { min: 0, max: 0 };
+    return { low: min, high: max };
+  });
+  const code: Instruction[] = [];
+  emit(expression, names, code);
+  const look = (box: Box): Bound => {
+    budget.nodes -= code.length;
+    return bound(code, box);
+  };
+  const fits = ({ trouble, values }: Bound) =>
+    trouble === 'none' && magnitudeOf(values) <= magnitude * (1 + limitSlack);
+  const fault = ({ trouble, column }: Bound, at: readonly number[]): DomainFault => ({
+    cause: trouble === 'none' ? `larger than ${magnitude}` : describe(trouble),
+    column: trouble === 'none' ? expression.column : column,
+    at: new Map(names.map((name, i) => [name, at[i] as number])),
+  });
+  const faultAt = (at: readonly number[]): DomainFault | null => {
+    const range = look(at.map((value) => ({ low: value, high: value })));
+    return range.trouble === 'none' && mignitudeOf(range.values) <= magnitude ? null : fault(range, at);
+  };
+
+  for (const end of ['low', 'high'] as const) {
+    const found = faultAt(whole.map((side) => side[end]));
+    if (found) return found;
+  }
+  const open: Box[] = [whole];
+  for (let boxes = 0; boxes < open.length && budget.nodes >= 0; ++boxes) {
+    const box = open[boxes] as Box;
+    open[boxes] = [];
+    const range = look(box);
+    if (fits(range)) continue;
+    const at = box.map(({ low, high }) => (low + high) / 2);
+    const found = faultAt(at);
+    if (found) return found;
+    const [side, share] = widest(box, whole);
+    if (share > narrowest && boxes < boxesPerAmount) {
+      const middle = at[side] as number;
+      open.push(box.map((old, i) => (i === side ? { low: old.low, high: middle } : old)));
+      open.push(box.map((old, i) => (i === side ? { low: middle, high: old.high } : old)));
+    } else if (range.trouble !== 'root of a negative number') {
+      return fault(range, at);
+    }
+  }
+  return null;
 }
 
 /** The names of the parameters that occur. */
@@ -73,200 +133,123 @@ export function parametersOf(expression: Expression, found: Set<string> = new Se
   return found;
 }
 
-function search(expression: Expression, whole: Box, budget: DomainBudget, magnitude: number): DomainFault | null {
-  for (const end of ['min', 'max'] as const) {
-    const fault = faultAt(
-      expression,
-      new Map([...whole].map(([name, range]) => [name, range[end]])),
-      budget,
-      magnitude,
-    );
-    if (fault) return fault;
-  }
-  const queue: Box[] = [whole];
-  for (let boxes = 0; boxes < boxesPerAmount && budget.nodes > 0; ++boxes) {
-    const next = queue.shift();
-    if (!next) break;
-    const value = bound(expression, next, budget);
-    const wide = Math.max(-value.low, value.high) > magnitude;
-    if (!value.trouble && !wide) continue;
-    const middle = new Map([...next].map(([name, range]) => [name, (range.min + range.max) / 2]));
-    const fault = faultAt(expression, middle, budget, magnitude);
-    if (fault) return fault;
-    const [name, share] = widest(next, whole);
-    if (share > narrowest) {
-      queue.push(...halves(next, name));
-    } else if (value.trouble && value.trouble.kind !== 'root of a negative number') {
-      // A pole lies in this sliver. A root that only touches 0 is fine: its middle has just been tried.
-      return { cause: describe(value.trouble.kind), column: value.trouble.column, at: middle };
-    }
-  }
-  return null;
-}
-
-function faultAt(
-  expression: Expression,
-  at: ReadonlyMap<string, number>,
-  budget: DomainBudget,
-  magnitude: number,
-): DomainFault | null {
-  const point = new Map([...at].map(([name, value]) => [name, { min: value, max: value }]));
-  const value = bound(expression, point, budget);
-  if (value.trouble) return { cause: describe(value.trouble.kind), column: value.trouble.column, at };
-  if (Math.abs(value.low) <= magnitude) return null;
-  return { cause: `larger than ${magnitude}`, column: expression.column, at };
-}
-
 function describe(trouble: Trouble): string {
-  return (
-    { 'division by zero': 'a', 'root of a negative number': 'the', 'undefined or infinite value': 'an' }[trouble] +
-    ` ${trouble}`
-  );
+  const article = { none: '', 'division by zero': 'a', 'root of a negative number': 'the' }[trouble as string] ?? 'an';
+  return `${article} ${trouble}`;
 }
 
-function widest(box: Box, whole: Box): [name: string, share: number] {
-  let found: [string, number] = ['', 0];
-  for (const [name, range] of box) {
-    const all = whole.get(name);
-    const share = all && all.max > all.min ? (range.max - range.min) / (all.max - all.min) : 0;
-    if (share > found[1]) found = [name, share];
+function widest(box: Box, whole: Box): [side: number, share: number] {
+  let found: [number, number] = [0, 0];
+  for (const [i, { low, high }] of box.entries()) {
+    const all = (whole[i] as Interval).high - (whole[i] as Interval).low;
+    const share = all > 0 ? (high - low) / all : 0;
+    if (share > found[1]) found = [i, share];
   }
   return found;
 }
 
-function halves(box: Box, name: string): Box[] {
-  const { min, max } = box.get(name) ?? { min: 0, max: 0 };
-  const middle = (min + max) / 2;
-  return [new Map(box).set(name, { min, max: middle }), new Map(box).set(name, { min: middle, max })];
-}
+// ------------------------------------------------------------------------------------------------------------- code
 
-function bound(expression: Expression, box: Box, budget: DomainBudget): Interval {
-  budget.nodes -= 1;
+/** Postfix, as the C++ parser writes it: an operation on numbers is done at once, one without a value is left to fail. */
+function emit(expression: Expression, names: readonly string[], code: Instruction[]): void {
+  const { column } = expression;
   switch (expression.kind) {
     case 'number':
-      return { low: expression.value, high: expression.value, trouble: null };
-    case 'parameter': {
-      const range = box.get(expression.name) ?? { min: 0, max: 0 };
-      return { low: range.min, high: range.max, trouble: null };
-    }
-    case 'negate': {
-      const { low, high, trouble } = bound(expression.operand, box, budget);
-      return { low: -high, high: -low, trouble };
-    }
-    case 'binary': {
-      const left = bound(expression.left, box, budget);
-      const right = bound(expression.right, box, budget);
-      if (isZeroToZero(expression.op, left, right) && parametersOf(expression.left).size === 0) {
-        return everything({ kind: 'undefined or infinite value', column: expression.column });
+      code.push({ op: 'number', value: expression.value, column });
+      break;
+    case 'parameter':
+      code.push({ op: 'parameter', value: names.indexOf(expression.name), column });
+      break;
+    case 'negate':
+      emit(expression.operand, names, code);
+      apply('negate', 1, column, code);
+      break;
+    case 'binary':
+      emit(expression.left, names, code);
+      emit(expression.right, names, code);
+      apply(expression.op, 2, column, code);
+      break;
+    case 'call':
+      for (const [i, argument] of expression.arguments.entries()) {
+        emit(argument, names, code);
+        if (i > 0) apply(expression.name, 2, column, code);
       }
-      return settle(binary(expression.op, left, right, expression.column), expression.column, left, right);
-    }
-    case 'call': {
-      const list = expression.arguments.map((argument) => bound(argument, box, budget));
-      return settle(call(expression.name, list, expression.column), expression.column, ...list);
-    }
+      if (expression.arguments.length === 1) apply(expression.name, 1, column, code);
   }
 }
 
-/** x^0 is 1 for every x, but 0^0 written as such is refused, as it is by the C++ parser. */
-function isZeroToZero(op: string, base: Interval, exponent: Interval): boolean {
-  return op === '^' && [base.low, base.high, exponent.low, exponent.high].every((end) => end === 0);
+function apply(op: Instruction['op'], arity: 1 | 2, column: number, code: Instruction[]): void {
+  const operands = code.slice(-arity);
+  const [a = Number.NaN, b = Number.NaN] = operands.map(({ value }) => value);
+  const value = operands.every((operand) => operand.op === 'number') ? operate(op, a, b) : Number.NaN;
+  // x^0 is 1 for every x, but 0^0 written as such is refused, as it is by the C++ parser.
+  const isZeroToZero = op === '^' && operands.every((operand) => operand.op === 'number' && operand.value === 0);
+  if (!Number.isFinite(value) && !isZeroToZero) {
+    code.push({ op, value: 0, column });
+    return;
+  }
+  code.length -= arity;
+  code.push({ op: 'number', value: isZeroToZero ? Number.NaN : value, column });
 }
 
-/** The first trouble of the operands counts; a bound that is not finite is trouble of its own. */
-function settle(value: Interval, column: number, ...operands: Interval[]): Interval {
-  const trouble = operands.find((operand) => operand.trouble)?.trouble ?? value.trouble;
-  if (Number.isFinite(value.low) && Number.isFinite(value.high)) return { ...value, trouble };
-  return everything(trouble ?? { kind: 'undefined or infinite value', column });
-}
-
-function everything(trouble: Interval['trouble']): Interval {
-  return { low: -Number.MAX_VALUE, high: Number.MAX_VALUE, trouble };
-}
-
-function hull(values: readonly number[]): Interval {
-  return { low: Math.min(...values), high: Math.max(...values), trouble: null };
-}
-
-function corners(a: Interval, b: Interval, f: (x: number, y: number) => number): Interval {
-  return hull([f(a.low, b.low), f(a.low, b.high), f(a.high, b.low), f(a.high, b.high)]);
-}
-
-function binary(op: string, a: Interval, b: Interval, column: number): Interval {
+function operate(op: Instruction['op'], a: number, b: number): number {
+  const notNegative = (x: number) => (x < 0 && x >= -noise ? 0 : x);
   switch (op) {
+    case 'negate':
+      return -a;
     case '+':
-      return { low: a.low + b.low, high: a.high + b.high, trouble: null };
+      return a + b;
     case '-':
-      return { low: a.low - b.high, high: a.high - b.low, trouble: null };
+      return a - b;
     case '*':
-      return corners(a, b, (x, y) => x * y);
+      return a * b;
     case '/':
-      if (b.low <= 0 && b.high >= 0) return everything({ kind: 'division by zero', column });
-      return corners(a, b, (x, y) => x / y);
-    default:
-      return power(a, b, column);
-  }
-}
-
-function power(base: Interval, exponent: Interval, column: number): Interval {
-  const integer = exponent.low === exponent.high && Number.isInteger(exponent.low);
-  if (!integer && base.low < -noise) return everything({ kind: 'root of a negative number', column });
-  const clipped = integer ? base : { ...base, low: Math.max(0, base.low), high: Math.max(0, base.high) };
-  const containsZero = clipped.low <= 0 && clipped.high >= 0;
-  if (containsZero && exponent.low < 0) return everything({ kind: 'division by zero', column });
-  // 0^0 has no agreed value as a limit; a constant exponent 0 is the constant 1.
-  if (containsZero && exponent.low <= 0 && exponent.low !== exponent.high) {
-    return everything({ kind: 'undefined or infinite value', column });
-  }
-  const ends = corners(clipped, exponent, (x, y) => x ** y);
-  const even = integer && exponent.low % 2 === 0;
-  return even && containsZero ? { ...ends, low: exponent.low === 0 ? 1 : 0 } : ends;
-}
-
-function call(name: string, list: readonly Interval[], column: number): Interval {
-  const [first = everything(null), second = everything(null)] = list;
-  switch (name) {
+      return a / b;
+    case '^':
+      return (Number.isInteger(b) ? a : notNegative(a)) ** b;
     case 'sqrt':
-      if (first.low < -noise) return everything({ kind: 'root of a negative number', column });
-      return { low: Math.sqrt(Math.max(0, first.low)), high: Math.sqrt(Math.max(0, first.high)), trouble: null };
-    case 'abs': {
-      const ends = hull([Math.abs(first.low), Math.abs(first.high)]);
-      return first.low <= 0 && first.high >= 0 ? { ...ends, low: 0 } : ends;
-    }
+      return Math.sqrt(notNegative(a));
+    case 'abs':
+      return Math.abs(a);
     case 'floor':
-      return hull([Math.floor(first.low), Math.floor(first.high)]);
+      return Math.floor(a + countingSlack);
     case 'sin':
-      return wave(
-        { ...first, low: first.low - Math.PI / 2, high: first.high - Math.PI / 2 },
-        Math.sin(first.low),
-        Math.sin(first.high),
-      );
+      return Math.sin(a);
     case 'cos':
-      return wave(first, Math.cos(first.low), Math.cos(first.high));
+      return Math.cos(a);
     case 'tan':
-      if (Math.floor(first.low / Math.PI - 0.5) !== Math.floor(first.high / Math.PI - 0.5)) {
-        return everything({ kind: 'undefined or infinite value', column });
-      }
-      return hull([Math.tan(first.low), Math.tan(first.high)]);
-    case 'atan2':
-      if (second.low > 0 || (first.low === first.high && second.low === second.high)) {
-        return corners(first, second, Math.atan2);
-      }
-      return { low: -Math.PI, high: Math.PI, trouble: null };
+      return Math.tan(a);
+    case 'atan2': {
+      const x = b + 0;
+      return Math.atan2(x < 0 && a <= 0 && a >= noise * x ? 0 : a, x);
+    }
     case 'min':
-      return hullOf(list, Math.min);
+      return Math.min(a, b);
+    case 'max':
+      return Math.max(a, b);
     default:
-      return hullOf(list, Math.max);
+      return Number.NaN;
   }
 }
 
-function hullOf(list: readonly Interval[], f: (...values: number[]) => number): Interval {
-  return { low: f(...list.map((item) => item.low)), high: f(...list.map((item) => item.high)), trouble: null };
-}
-
-/** Bounds of cos over [phase.low, phase.high], whose values at the ends are given. */
-function wave(phase: Interval, atLow: number, atHigh: number): Interval {
-  const top = Math.ceil(phase.low / (2 * Math.PI)) * 2 * Math.PI <= phase.high;
-  const bottom = (Math.ceil(phase.low / (2 * Math.PI) - 0.5) + 0.5) * 2 * Math.PI <= phase.high;
-  return { low: bottom ? -1 : Math.min(atLow, atHigh), high: top ? 1 : Math.max(atLow, atHigh), trouble: null };
+function bound(code: readonly Instruction[], box: Box): Bound {
+  const stack: Interval[] = [];
+  for (const { op, value, column } of code) {
+    let result: Interval | Trouble;
+    if (op === 'number') result = { low: value, high: value };
+    else if (op === 'parameter') result = box[value] as Interval;
+    else {
+      const last = stack.pop() as Interval;
+      const binary = op in binaryOperations ? binaryOperations[op as keyof typeof binaryOperations] : null;
+      result = binary
+        ? binary(stack.pop() as Interval, last)
+        : unaryOperations[op as keyof typeof unaryOperations](last);
+    }
+    if (typeof result === 'string') return { values: everything, trouble: result, column };
+    if (!Number.isFinite(result.low) || !Number.isFinite(result.high)) {
+      return { values: everything, trouble: 'undefined or infinite value', column };
+    }
+    stack.push(result);
+  }
+  return { values: stack[0] as Interval, trouble: 'none', column: 0 };
 }

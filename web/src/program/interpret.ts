@@ -131,7 +131,7 @@ function call(name: string, list: readonly number[]): number {
     case 'abs':
       return Math.abs(a);
     case 'floor':
-      return Math.floor(a);
+      return Math.floor(a + 1e-9);
     case 'sin':
       return Math.sin(a);
     case 'cos':
@@ -139,7 +139,7 @@ function call(name: string, list: readonly number[]): number {
     case 'tan':
       return Math.tan(a);
     case 'atan2':
-      return Math.atan2(a, b);
+      return b < 0 && a <= 0 && a >= 1e-12 * b ? Math.PI : Math.atan2(a, b + 0);
     case 'min':
       return Math.min(...list);
     default:

@@ -23,6 +23,8 @@ export const limits = {
   statements: 10_000,
   /** Of a layer: one for each relation that an edit may touch. */
   reports: 100_000,
+  /** That a sampled report may speak of. */
+  samples: 1_000_000,
   /** That a statement names as its reason. */
   reasons: 256,
   /** Texts are measured in bytes of UTF-8. */
@@ -93,12 +95,19 @@ const parameter = v.strictObject({
   value: finite,
 });
 
-const report = v.strictObject({
-  id: name,
-  status: v.picklist(['held', 'broken', 'disabled']),
-  worst: v.pipe(finite, v.minValue(0)),
-  proof: v.picklist(['certified', 'sampled']),
-});
+const report = v.pipe(
+  v.strictObject({
+    id: name,
+    status: v.picklist(['held', 'broken', 'disabled']),
+    worst: v.pipe(finite, v.minValue(0)),
+    proof: v.picklist(['certified', 'sampled']),
+    samples: v.exactOptional(v.pipe(finite, v.integer(), v.minValue(1), v.maxValue(limits.samples))),
+  }),
+  v.check(
+    ({ proof, samples }) => samples === undefined || proof === 'sampled',
+    'Invalid report: Expected samples of a sampled one only',
+  ),
+);
 
 /** One layer, such as is read alone where the others are damaged. */
 export const layerSchema: v.GenericSchema<unknown, Layer> = v.strictObject({

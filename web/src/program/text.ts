@@ -43,8 +43,8 @@ export function statementText(statement: Statement, { why = true } = {}): string
   return [`${text} because ${statement.why.kind}`, statement.why.relations.map(quoted).join(', ')].join(' ').trimEnd();
 }
 
-function reportText({ id, status, worst, proof }: RelationReport): string {
-  return `relation ${quoted(id)}: ${status}, worst ${worst}, ${proof}`;
+function reportText({ id, status, worst, proof, samples }: RelationReport): string {
+  return `relation ${quoted(id)}: ${status}, worst ${worst}, ${proof}${samples === undefined ? '' : ` at ${samples}`}`;
 }
 
 function pointText(reference: PointReference): string {

@@ -235,7 +235,10 @@ class Reader {
     line.expectWord('worst');
     const worst = line.number();
     line.expect(',');
-    return { id, status, worst, proof: line.word() };
+    const proof = line.word();
+    if (line.ended()) return { id, status, worst, proof };
+    line.expectWord('at');
+    return { id, status, worst, proof, samples: line.number() };
   }
 
   /** Fields that the operator does not take are left to the schema, which refuses them by name. */

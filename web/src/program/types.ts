@@ -199,6 +199,8 @@ export interface RelationReport {
   /** Largest deviation of a coordinate over the parameter's range, normalised. */
   readonly worst: number;
   readonly proof: 'certified' | 'sampled';
+  /** When sampled: at how many values of the parameter, if known. */
+  readonly samples?: number;
 }
 
 /** Layers run in order; a part edited by one is the input of the next (paper §8.1). */

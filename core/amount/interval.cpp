@@ -1,4 +1,4 @@
-#include "core/prove/interval.h"
+#include "core/amount/interval.h"
 
 #include "core/base/tolerance.h"
 
@@ -78,6 +78,26 @@ Interval power(const Interval& a, double exponent) {
   const double first = std::pow(a.low, exponent);
   const double second = std::pow(a.high, exponent);
   return library(std::min(first, second), std::max(first, second), 0, infinity);
+}
+
+Interval power(const Interval& base, const Interval& exponent) {
+  const double corners[4] = {std::pow(base.low, exponent.low), std::pow(base.low, exponent.high),
+                             std::pow(base.high, exponent.low), std::pow(base.high, exponent.high)};
+  return library(*std::min_element(corners, corners + 4), *std::max_element(corners, corners + 4), 0, infinity);
+}
+
+Interval integer_power(const Interval& base, double n) {
+  if (n == 0) return 1;
+  const bool even = std::fmod(n, 2) == 0;
+  if (n < 0 && base.contains(0)) return Interval::everything();
+  const double low = std::pow(even ? base.mignitude() : base.low, n);
+  const double high = std::pow(even ? base.magnitude() : base.high, n);
+  return library(std::min(low, high), std::max(low, high), even ? 0 : -infinity, infinity);
+}
+
+Interval tan(const Interval& a) {
+  if (!is_moderate(a) || meets(a, pi / 2) || meets(a, -pi / 2)) return Interval::everything();
+  return library(std::tan(a.low), std::tan(a.high), -infinity, infinity);
 }
 
 Interval abs(const Interval& a) {

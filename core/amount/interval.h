@@ -88,6 +88,12 @@ Interval cos(const Interval& a);
 Interval atan2(const Interval& y, const Interval& x);
 /// x^exponent for x > 0; the whole line when the interval reaches 0.
 Interval power(const Interval& a, double exponent);
+/// x^y for x >= 0, and x > 0 where y <= 0.
+Interval power(const Interval& base, const Interval& exponent);
+/// x^n for any x, and x != 0 where n < 0: an even power is never negative.
+Interval integer_power(const Interval& base, double n);
+/// The whole line when a pole may lie in the interval.
+Interval tan(const Interval& a);
 Interval abs(const Interval& a);
 Interval floor(const Interval& a);
 Interval min(const Interval& a, const Interval& b);
