@@ -86,8 +86,8 @@ class Alternatives : public Attempt {
 
   Propagation finish() override {
     write(found_);
-    note_unused_hints();
-    say_why_it_stopped(found_);
+    for (std::string& note : unused_hints(graph_, request_)) trace_.notes.push_back(std::move(note));
+    trace_.stop = why_it_stopped(graph_, found_.edits);
     return finished(shape_, request_, options_, at_, std::move(layer_), std::move(trace_), progress_);
   }
 
@@ -189,7 +189,7 @@ class Alternatives : public Attempt {
     return parts;
   }
 
-  /// The cheapest state of four searches, those first that leave least to be found; together they may do so much work.
+  /// The cheapest state of four searches, those first that leave least to be found; together they may do most_work.
   std::optional<SearchState> find() {
     Restriction free;
     free.held = held();
@@ -224,9 +224,6 @@ class Alternatives : public Attempt {
     return best;
   }
 
-  /// Problem::work of all searches together: about a third of a second natively. With more, models of a hundred parts
-  /// keep people waiting for seconds.
-  static constexpr std::size_t most_work = 300'000;
   /// Another search must be cheaper by this, so that equals do not change places with rounding.
   static constexpr double cheaper_by = 1e-6;
 
@@ -440,36 +437,6 @@ class Alternatives : public Attempt {
     for (const RelationIndex relation : graph_.relations(part)) sources.push_back(graph_.other(relation, part));
     sources.insert(sources.end(), edited.begin(), edited.end());
     return sources;
-  }
-
-  // ----- the end
-
-  void note_unused_hints() {
-    for (const auto& [part, hint] : request_.hints) {
-      const std::string words = "the hint " + std::string(to_string(hint)) + " for " + id(part);
-      if (!is_in_graph(part)) {
-        trace_.notes.push_back(words + " has no effect: the group is dissolved");
-      } else if (is_seed(part)) {
-        trace_.notes.push_back(words + " has no effect: the part has a seed edit");
-      }
-    }
-  }
-
-  void say_why_it_stopped(const SearchState& found) {
-    std::size_t edited = 0;
-    bool touches = false;
-    for (const PartIndex part : graph_.parts()) {
-      edited += found.edits[part] != nullptr;
-      for (const RelationIndex relation : graph_.relations(part))
-        touches = touches || (found.edits[part] && graph_.other(relation, part) != part);
-    }
-    if (edited == graph_.parts().size()) {
-      trace_.stop = "every part is edited";
-    } else if (touches) {
-      trace_.stop = "no relation between an edited and an unedited part is broken";
-    } else {
-      trace_.stop = "no relation ties the edited parts to any other part, so nothing follows them";
-    }
   }
 
   const Shape& shape_;

@@ -1,9 +1,41 @@
 #include "core/propagate/attempt.h"
 
+#include <algorithm>
+
 #include "core/prove/prove.h"
 #include "core/prove/range.h"
 
 namespace parsel {
+
+std::vector<std::string> unused_hints(const Graph& graph, const ResolvedRequest& request) {
+  const auto has = [](const std::vector<PartIndex>& parts, PartIndex part) {
+    return std::find(parts.begin(), parts.end(), part) != parts.end();
+  };
+  std::vector<std::string> notes;
+  for (const auto& [part, hint] : request.hints) {
+    const std::string words =
+        "the hint " + std::string(to_string(hint)) + " for " + graph.shape().parts[part].id + " has no effect: ";
+    if (!has(graph.parts(), part)) {
+      notes.push_back(words + "the group is dissolved");
+    } else if (has(request.seed_parts, part)) {
+      notes.push_back(words + "the part has a seed edit");
+    }
+  }
+  return notes;
+}
+
+std::string why_it_stopped(const Graph& graph, const Edits& edits) {
+  bool all_edited = true, touches = false;
+  for (const PartIndex part : graph.parts()) {
+    all_edited = all_edited && edits[part] != nullptr;
+    for (const RelationIndex relation : graph.relations(part)) {
+      touches = touches || edits[part] != nullptr || edits[graph.other(relation, part)] != nullptr;
+    }
+  }
+  if (all_edited) return "every part is edited";
+  if (touches) return "no relation between an edited and an unedited part is broken";
+  return "no relation ties the edited parts to any other part, so nothing follows them";
+}
 
 Propagation finished(const Shape& shape, const ResolvedRequest& request, const PropagateOptions& options,
                      const Samples& at, Layer layer, Trace trace, const Progress& progress) {

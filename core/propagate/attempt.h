@@ -15,6 +15,12 @@ class Attempt {
   virtual Propagation finish() = 0;
 };
 
+/// Notes for the trace: hints for parts that are seeds or not in the graph.
+std::vector<std::string> unused_hints(const Graph& graph, const ResolvedRequest& request);
+
+/// Why a search with these edits was over, a sentence.
+std::string why_it_stopped(const Graph& graph, const Edits& edits);
+
 /// The program of a layer: its range found, its relations proved, the trace completed.
 Propagation finished(const Shape& shape, const ResolvedRequest& request, const PropagateOptions& options,
                      const Samples& at, Layer layer, Trace trace, const Progress& progress);

@@ -208,4 +208,36 @@ std::optional<ClosedForm> AmountSolver::from_angle(const Candidate& candidate, c
   return accept(GiNaC::atan2(y.expand(), x.expand()), candidate, wanted);
 }
 
+namespace {
+
+/// With n instances in a row, n − 1 gaps spread by 1 + a hold round((n − 1)·(1 + a)) gaps of the old size.
+Step count_of(const Relation& group, const Step& spread) {
+  const long gaps = static_cast<long>(group.parts.size()) - (group.kind == RelationKind::translation ? 1 : 0);
+  Step count;
+  count.what.op = Op::change_count;
+  count.anchor = Anchor::fit;
+  count.amount = (gaps * spread.amount + GiNaC::numeric(1, 2)).expand();
+  for (std::size_t s = 0; s < sample_count; ++s) count.values[s] = static_cast<double>(gaps) * spread.values[s] + 0.5;
+  return count;
+}
+
+}  // namespace
+
+std::optional<std::vector<Step>> closed_steps(AmountSolver& solver, const Candidate& first, const Samples& amount,
+                                              const Candidate* second, const Samples& second_amount,
+                                              const Relation* counted) {
+  std::vector<Step> steps;
+  const auto add = [&](const Candidate& candidate, const std::optional<ClosedForm>& form) {
+    if (form) steps.push_back({candidate.what, candidate.anchor, form->expression, form->values});
+    return form.has_value();
+  };
+  const Candidate& spread = second == nullptr ? first : *second;
+  if (!add(spread, second == nullptr ? solver.solve(first, amount) : solver.proportional(*second, second_amount))) {
+    return std::nullopt;
+  }
+  if (counted != nullptr && spread.what.op == Op::change_delta) steps.push_back(count_of(*counted, steps.back()));
+  if (second != nullptr && !add(first, solver.proportional(first, amount))) return std::nullopt;
+  return steps;
+}
+
 }  // namespace parsel

@@ -57,4 +57,12 @@ class AmountSolver {
   std::vector<ClosedForm> driving_;
 };
 
+/// The steps of a candidate, or of a pair whose `second` comes first, so that the origin of the first is where the fit
+/// took it to be; in closed form with the amounts that they were fitted with. Nothing when one has none.
+/// `counted`: the group whose count follows where it spreads, if it shall: it keeps its new extent, and as many
+/// instances fill it as bring the spacing nearest to what it was.
+std::optional<std::vector<Step>> closed_steps(AmountSolver& solver, const Candidate& first, const Samples& amount,
+                                              const Candidate* second, const Samples& second_amount,
+                                              const Relation* counted);
+
 }  // namespace parsel

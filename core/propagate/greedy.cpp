@@ -158,8 +158,8 @@ class Loop : public Attempt {
   /// The program and its proof. After search(), once.
   Propagation finish() override {
     note_fixed_parts();
-    note_unused_hints();
-    say_why_it_stopped();
+    for (std::string& note : unused_hints(graph_, request_)) trace_.notes.push_back(std::move(note));
+    trace_.stop = why_it_stopped(graph_, edits_);
     return finished(shape_, request_, options_, at_, std::move(layer_), std::move(trace_), progress_);
   }
 
@@ -231,17 +231,6 @@ class Loop : public Attempt {
         trace.statements.push_back(add_keep_fixed(part, std::move(why)));
       }
       trace_.steps.push_back(std::move(trace));
-    }
-  }
-
-  void note_unused_hints() {
-    for (const auto& [part, hint] : request_.hints) {
-      const std::string words = "the hint " + std::string(to_string(hint)) + " for " + id(part);
-      if (!is_in_graph(part)) {
-        trace_.notes.push_back(words + " has no effect: the group is dissolved");
-      } else if (std::find(request_.seed_parts.begin(), request_.seed_parts.end(), part) != request_.seed_parts.end()) {
-        trace_.notes.push_back(words + " has no effect: the part has a seed edit");
-      }
     }
   }
 
@@ -413,24 +402,6 @@ class Loop : public Attempt {
         return "group";
     }
     return "";
-  }
-
-  // ----- the end
-
-  void say_why_it_stopped() {
-    std::size_t edited = 0;
-    bool touches = false;
-    for (const PartIndex part : graph_.parts()) {
-      edited += edits_[part] != nullptr;
-      touches = touches || !pulls_[part].empty();
-    }
-    if (edited == graph_.parts().size()) {
-      trace_.stop = "every part is edited";
-    } else if (touches) {
-      trace_.stop = "no relation between an edited and an unedited part is broken";
-    } else {
-      trace_.stop = "no relation ties the edited parts to any other part, so nothing follows them";
-    }
   }
 
   const Shape& shape_;

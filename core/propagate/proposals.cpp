@@ -311,36 +311,8 @@ class Proposer {
 
   std::optional<std::vector<Step>> steps_of(const Fitted& fitted, AmountSolver& solver) {
     ++trace_.solved;
-    std::vector<Step> steps;
-    const auto add = [&](const Candidate& candidate, const std::optional<ClosedForm>& form) {
-      if (form) steps.push_back({candidate.what, candidate.anchor, form->expression, form->values});
-      return form.has_value();
-    };
-    const bool counts = hint_ == Hint::change_count;
-    if (fitted.second == nullptr) {
-      if (!add(*fitted.first, solver.solve(*fitted.first, fitted.amount))) return std::nullopt;
-      if (counts && steps.back().what.op == Op::change_delta) add_count(steps);
-    } else {
-      if (!add(*fitted.second, solver.proportional(*fitted.second, fitted.second_amount))) return std::nullopt;
-      if (counts && steps.back().what.op == Op::change_delta) add_count(steps);
-      if (!add(*fitted.first, solver.proportional(*fitted.first, fitted.amount))) return std::nullopt;
-    }
-    return steps;
-  }
-
-  /// The group keeps its new extent, and as many instances fill it as bring the spacing nearest to what it was: with n
-  /// instances in a row, n − 1 gaps spread by 1 + a hold round((n − 1)·(1 + a)) gaps of the old size.
-  void add_count(std::vector<Step>& steps) const {
-    const Relation& group = shape_.relations[*shape_.parts[part_].group];
-    const bool is_row = group.kind == RelationKind::translation;
-    const long gaps = static_cast<long>(group.parts.size()) - (is_row ? 1 : 0);
-    const Step& spread = steps.back();
-    Step count;
-    count.what.op = Op::change_count;
-    count.anchor = Anchor::fit;
-    count.amount = (gaps * spread.amount + GiNaC::numeric(1, 2)).expand();
-    for (std::size_t s = 0; s < sample_count; ++s) count.values[s] = static_cast<double>(gaps) * spread.values[s] + 0.5;
-    steps.push_back(std::move(count));
+    const Relation* group = hint_ == Hint::change_count ? &shape_.relations[*shape_.parts[part_].group] : nullptr;
+    return closed_steps(solver, *fitted.first, fitted.amount, fitted.second, fitted.second_amount, group);
   }
 
   static std::string name_of(const Fitted& fitted) {

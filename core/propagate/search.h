@@ -39,12 +39,16 @@ struct Restriction {
   bool feet_stay = false;    ///< feet do not even slide on the floor
 };
 
+/// Problem::work of a whole search: about a third of a second natively. With more, models of a hundred parts keep people
+/// waiting for seconds.
+inline constexpr std::size_t most_work = 300'000;
+
 struct SearchOptions {
   std::size_t width = 4;  ///< states kept in a round
   /// How many parts may be looked at in all, over all states: wide beams on large models become narrow.
   std::size_t looks = 120;
   /// Problem::work at which the search gives up. Work, not time: the same input gives the same program everywhere.
-  std::size_t work = 0;
+  std::size_t work = most_work;
 };
 
 /// The cheapest state found from `seeds`, the edits of the seed parts; nothing when all are dearer than `limit`, or when the work is used up.

@@ -234,37 +234,8 @@ class Search {
 
   std::optional<std::vector<Step>> steps_of(const Survivor& survivor, AmountSolver& solver) {
     ++trace_.solved;
-    std::vector<Step> steps;
-    const auto add = [&](const Candidate& candidate, const std::optional<ClosedForm>& form) {
-      if (form) steps.push_back({candidate.what, candidate.anchor, form->expression, form->values});
-      return form.has_value();
-    };
-    if (survivor.second == nullptr) {
-      if (!add(*survivor.first, solver.solve(*survivor.first, survivor.fit.amount))) return std::nullopt;
-    } else {
-      // The translation comes last, so that the other's origin is where the fit took it to be.
-      if (!add(*survivor.second, solver.proportional(*survivor.second, survivor.fit.second))) return std::nullopt;
-      if (hint_ == Hint::change_count && steps.back().what.op == Op::change_delta) add_count(steps);
-      if (!add(*survivor.first, solver.proportional(*survivor.first, survivor.fit.amount))) return std::nullopt;
-      return steps;
-    }
-    if (hint_ == Hint::change_count && steps.back().what.op == Op::change_delta) add_count(steps);
-    return steps;
-  }
-
-  /// The group keeps its new extent, and as many instances fill it as bring the spacing nearest to what it was: with n
-  /// instances in a row, n − 1 gaps spread by 1 + a hold round((n − 1)·(1 + a)) gaps of the old size.
-  void add_count(std::vector<Step>& steps) const {
-    const Relation& group = shape_.relations[*shape_.parts[part_].group];
-    const bool is_row = group.kind == RelationKind::translation;
-    const long gaps = static_cast<long>(group.parts.size()) - (is_row ? 1 : 0);
-    const Step& spread = steps.back();
-    Step count;
-    count.what.op = Op::change_count;
-    count.anchor = Anchor::fit;
-    count.amount = (gaps * spread.amount + GiNaC::numeric(1, 2)).expand();
-    for (std::size_t s = 0; s < sample_count; ++s) count.values[s] = static_cast<double>(gaps) * spread.values[s] + 0.5;
-    steps.push_back(std::move(count));
+    const Relation* group = hint_ == Hint::change_count ? &shape_.relations[*shape_.parts[part_].group] : nullptr;
+    return closed_steps(solver, *survivor.first, survivor.fit.amount, survivor.second, survivor.fit.second, group);
   }
 
   /// What an edit breaks. Of edits that lose as many relations the one that keeps joints, rather than symmetries, is
