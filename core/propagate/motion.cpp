@@ -44,6 +44,44 @@ Corners radial_field(const Part& parent, const Rotation& group) {
   return field;
 }
 
+/// What the group operators before have made of a group, as factors of what it is at rest. With more than one of them
+/// each works on what the others left.
+template <class T>
+class GroupSoFar {
+ public:
+  explicit GroupSoFar(const Relation& group)
+      : is_row_(group.kind == RelationKind::translation),
+        at_rest_(static_cast<int>(group.parts.size()) - 1),
+        gaps_(static_cast<int>(group.parts.size()) - 1) {}
+
+  /// By how much of its group_field() an operator moves the group, now.
+  T factor(Op op, Anchor anchor, const T& amount) {
+    T factor = amount * spacing_;
+    if (op == Op::change_delta) {
+      if (is_row_) factor = factor * gaps_ / at_rest_;
+      spacing_ = spacing_ * (1 + amount);
+    } else if (is_row_) {
+      const T gaps = gaps_ + amount;
+      if (anchor == Anchor::fit) spacing_ = spacing_ * gaps_ / gaps;
+      gaps_ = gaps;
+    }
+    return factor;
+  }
+
+ private:
+  bool is_row_;
+  T at_rest_, gaps_, spacing_ = 1;
+};
+
+/// The group operators among steps need their group.
+template <class T>
+std::optional<GroupSoFar<T>> group_so_far(const Shape& shape, PartIndex part, const std::vector<Step>& steps) {
+  for (const Step& step : steps) {
+    if (!is_geometric(step.what.op)) return GroupSoFar<T>(group_relation(shape, part));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool is_too_long(const std::vector<Step>& steps) {
@@ -94,13 +132,15 @@ Motion motion_of(const Shape& shape, PartIndex part, const std::vector<Step>& st
   Motion motion;
   for (std::size_t s = 0; s < sample_count; ++s) {
     Corners corners = rest;
+    auto group = group_so_far<double>(shape, part, steps);
     for (const Step& step : steps) {
       if (is_geometric(step.what.op)) {
         apply_operator(step.what, step.values[s], corners);
         continue;
       }
       const double amount = step.what.op == Op::change_count ? counted(step.values[s]) : step.values[s];
-      corners += amount * group_field(shape, part, step.what.op, step.anchor);
+      const double factor = group->factor(step.what.op, step.anchor, amount);
+      corners += factor * group_field(shape, part, step.what.op, step.anchor);
     }
     motion[s] = corners - rest;
   }
@@ -132,11 +172,13 @@ SymbolicMotion symbolic_motion(const Shape& shape, PartIndex part, const std::ve
   const Corners& rest = shape.parts[part].hexahedron.corners;
   SymbolicMotion moved;
   for (auto& row : moved) row = {0, 0, 0};
+  auto group = group_so_far<ex>(shape, part, steps);
   for (const Step& step : steps) {
     const ResolvedOperator& what = step.what;
     if (!is_geometric(what.op)) {
       const Corners field = group_field(shape, part, what.op, step.anchor);
-      const ex amount = what.op == Op::change_count ? counted_form(step.amount) : step.amount;
+      const ex amount =
+          group->factor(what.op, step.anchor, what.op == Op::change_count ? counted_form(step.amount) : step.amount);
       for (std::size_t k = 0; k < 8; ++k) {
         for (std::size_t c = 0; c < 3; ++c) {
           moved[k][c] += number(field(static_cast<int>(k), static_cast<int>(c))) * amount;
