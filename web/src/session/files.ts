@@ -215,6 +215,15 @@ export async function readUrl(address: string, signal: AbortSignal): Promise<Fil
     budget.takeBytes(part.value.length);
     chunks.push(part.value);
   }
-  const name = baseName(safeDecode(url.pathname)) || 'model.glb';
-  return new Map([[name, new Uint8Array(await new Blob(chunks as BlobPart[]).arrayBuffer())]]);
+  const name = baseName(safeDecode(url.pathname)) || 'model';
+  const bytes = new Uint8Array(await new Blob(chunks as BlobPart[]).arrayBuffer());
+  return new Map([[named(name, bytes), bytes]]);
+}
+
+/** Addresses such as …/download?id=7 do not say what a file is; its first bytes do. */
+function named(name: string, bytes: Uint8Array): string {
+  if (extension(name) !== '' || isZip(bytes)) return name;
+  const start = new TextDecoder('latin1').decode(bytes.subarray(0, 64)).trimStart();
+  if (start.startsWith('glTF')) return `${name}.glb`;
+  return start.startsWith('{') ? `${name}.gltf` : name;
 }

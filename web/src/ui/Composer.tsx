@@ -1,7 +1,7 @@
 // Where one says what to change: the request with the parts it mentions, what can be tried, how far the answers are, what
 // was understood, and what went wrong.
-import { type Signal, useSignal, useSignalEffect } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { effect, type Signal, useSignal } from '@preact/signals';
+import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import type { Estimate, TaskProgress } from '../llm/session';
 import { choiceOf, costOf, isDemo, settings } from '../llm/settings';
 import { models } from '../session/core';
@@ -122,14 +122,17 @@ export function Composer({ picking }: { picking: boolean }) {
 
 /** While something is being written, a click on a part mentions it. */
 function useMentions(picking: boolean, isFocused: Signal<boolean>): void {
-  const last = useRef<string | null>(null);
-  useSignalEffect(() => {
-    const part = selection.value?.part ?? null;
-    if (part === last.current) return;
-    last.current = part;
-    const isWriting = isFocused.peek() || requestText.peek() !== '' || mentioned.peek().length > 0;
-    if (part !== null && isWriting && !picking && request.peek().kind !== 'asking') mention(part);
-  });
+  // From the first moment: an effect that waits for a paint takes a part that was selected before for one of the request.
+  useLayoutEffect(() => {
+    let last = selection.peek()?.part ?? null;
+    return effect(() => {
+      const part = selection.value?.part ?? null;
+      if (part === last) return;
+      last = part;
+      const isWriting = isFocused.peek() || requestText.peek() !== '' || mentioned.peek().length > 0;
+      if (part !== null && isWriting && !picking && request.peek().kind !== 'asking') mention(part);
+    });
+  }, [picking, isFocused]);
 }
 
 function Mentions() {
