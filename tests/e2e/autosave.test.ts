@@ -57,7 +57,7 @@ describe('the work of a tab', () => {
     const other = await newTab();
     await openSecond(other);
     await page.getByRole('slider').first().fill('0.2');
-    await saved(page);
+    await Promise.all([saved(page), saved(other)]);
     await Promise.all([page.reload(), other.reload()]);
     await page.locator('.card').nth(2).waitFor();
     expect((await values(page))[0]).toBeCloseTo(0.2);

@@ -113,6 +113,21 @@ describe('the work of a tab', () => {
     expect(await modelOf(tabOf(store, 'tab c'))).toBe('model of tab b');
   });
 
+  it('is written at once when its model is new, and after a rest when it has changed', async () => {
+    vi.useFakeTimers();
+    const { document, autosave } = tabOf(store, 'tab a');
+    const stop = autosave.start();
+    document.value = work('chair');
+    await vi.advanceTimersByTimeAsync(1);
+    expect(store.writes).toBe(1);
+    document.value = { ...document.value };
+    await vi.advanceTimersByTimeAsync(300);
+    expect(store.writes).toBe(1);
+    await vi.advanceTimersByTimeAsync(101);
+    expect(store.writes).toBe(2);
+    stop();
+  });
+
   it('outlives other tabs that are restored earlier, as browsers do one by one', async () => {
     const names = Array.from({ length: 7 }, (_, i) => `tab ${i}`);
     for (const [i, name] of names.entries()) await saved(store, name, now + i);

@@ -8,7 +8,7 @@ import { document } from './session';
 import { leaveBehind, openTabs, type Tab, takeLeft, thisTab } from './tab_name';
 import { browserStore, modelKey, type StoredModel, type TabRecord, type WorkStore } from './work_store';
 
-/** Milliseconds of rest after a change before it is written. */
+/** Milliseconds of rest after a change before it is written. A new model, which nothing else remembers, waits for none. */
 const delay = 400;
 const day = 24 * 60 * 60 * 1000; // milliseconds
 /**
@@ -54,6 +54,7 @@ export interface Autosave {
 export function createAutosave({ document, store, tab, now }: AutosaveParts): Autosave {
   const unkept = signal<Unkept | null>(null);
   let timer: ReturnType<typeof setTimeout> | undefined;
+  let isSaving = false;
   /** The model that is in the store, as far as this page knows. */
   let written: ModelFiles | null = null;
 
@@ -103,6 +104,7 @@ export function createAutosave({ document, store, tab, now }: AutosaveParts): Au
     timer = undefined;
     const current = document.peek();
     if (current.model === null) return true;
+    isSaving = true;
     try {
       await write(current.model, { at: now(), work: save(current) });
       unkept.value = null;
@@ -110,12 +112,14 @@ export function createAutosave({ document, store, tab, now }: AutosaveParts): Au
     } catch (error) {
       unkept.value = isFull(error) ? 'full' : 'refused';
       return false;
+    } finally {
+      isSaving = false;
     }
   }
 
   /** A page that is left has no time for the store: what is not there yet is put where this tab's next page looks. */
   function leave(): void {
-    if (timer === undefined) return;
+    if (timer === undefined && !isSaving) return;
     const current = document.peek();
     if (current.model === null) return;
     try {
@@ -135,9 +139,10 @@ export function createAutosave({ document, store, tab, now }: AutosaveParts): Au
     addEventListener('pagehide', leave);
     addEventListener('beforeunload', warn);
     const stop = effect(() => {
-      if (document.value.model === null) return;
+      const { model } = document.value;
+      if (model === null) return;
       clearTimeout(timer);
-      timer = setTimeout(() => void saveNow(), delay);
+      timer = setTimeout(() => void saveNow(), model.files === written ? delay : 0);
     });
     return () => {
       stop();
