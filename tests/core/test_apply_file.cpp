@@ -97,8 +97,7 @@ TEST_CASE("apply: hierarchies that are none are refused") {
     glb.json["nodes"][0]["children"] = {0};
   }
   SUBCASE("two parents") {
-    glb.json["nodes"].push_back({{"children", {0}}});
-    glb.json["nodes"].push_back({{"children", {0}}});
+    glb.node({{"children", {0}}});
   }
   SUBCASE("a child that is not there") {
     glb.json["nodes"][0]["children"] = {77};
