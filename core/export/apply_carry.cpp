@@ -123,11 +123,12 @@ class Carrier {
   }
 
   Motion wanted(std::size_t n) {
-    // Under a node that moves, every place has to be said anew; else only where something hangs on it.
+    // Under a node that moves, every place has to be said anew; else only that of a pivot, or of a part on which
+    // something hangs.
     const bool placed = hangs_[n] || above(n) != at_rest;
     if (is_one(own_[n])) return placed ? own_[n] : at_rest;
     if (own_[n] == several) return channels_.turns(n) ? with_form(*edits_.at(n), n, false) : above(n);
-    if (is_one(common_[n])) return placed ? common_[n] : at_rest;
+    if (is_one(common_[n])) return common_[n];
     const NodeEdit* parent = changing_parent(n);
     return parent != nullptr && common_[n] == none ? with_form(*parent, n, true) : above(n);
   }
@@ -260,7 +261,7 @@ class Carrier {
     const bool changes = own_[n] == several, followed = changes ? given_[n] != above(n) : given_[n] == own_[n];
     bool moved = channels_.moves(n) && !followed;
     for (auto at = scene_.parent[n]; at && !moved; at = scene_.parent[*at]) {
-      moved = channels_.moves(*at) && given_[*at] == above(*at) && (changes || given_[*at] != given_[n]);
+      moved = channels_.moves(*at) && given_[*at] == above(*at) && (changes || given_[*at] != own_[n]);
     }
     if (!moved) return;
     warnings_.push_back({"node " + std::to_string(n),

@@ -6,8 +6,9 @@
 //                                  vertices are rewritten and the node stays;
 //   a part that changes its form   that of the node above it, or, when an animation turns it about its origin, the
 //                                  translation which takes the origin along with the form;
-//   anything else                  the motion that all parts below it have in common; else that of the part above it:
-//                                  where that one changes its form, the translation and rotation of the place it is at.
+//   anything else                  a pivot: the motion that all parts below it have in common; else that of the node
+//                                  above it: where that one is a part which changes its form, the translation and
+//                                  rotation of the place it is at.
 // A place that glTF cannot say (a shear) is given up: the node goes with the one above, its vertices make up for that.
 #pragma once
 

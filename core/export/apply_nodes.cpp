@@ -62,7 +62,7 @@ class Planner {
 
   /// Whether the cage fits the floats of a file, in model units.
   bool fits_floats(const Corners& corners) const {
-    return (corners * shape_.frame.scale).cwiseAbs().maxCoeff() <= largest_corner;
+    return corners.allFinite() && (corners * shape_.frame.scale).cwiseAbs().maxCoeff() <= largest_corner;
   }
 
   Status check_states() const {

@@ -147,9 +147,8 @@ class Importer {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return leave_out("it has no POSITION");
     if (const std::string why = gltf::unreadable(document_, primitive); !why.empty()) {
-      const bool compressed = gltf::is_compressed(document_, primitive);
-      compressed_ = compressed_ || compressed;
-      return leave_out(why + (compressed ? "; decompress the file first, for instance with gltf-transform cp" : ""));
+      compressed_ = compressed_ || gltf::is_compressed(document_, primitive);
+      return leave_out(why);
     }
 
     const std::size_t vertices = gltf::accessor_count(document_, position->second);

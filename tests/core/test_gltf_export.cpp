@@ -213,20 +213,20 @@ TEST_CASE("2,000 damaged models can be exported as far as they open") {
   CHECK(damaged.refused > 200);
 }
 
-TEST_CASE("every fixture of the Khronos validator that opens can be exported") {
+TEST_CASE("the fixtures of the Khronos validator are refused in the same words, or exported") {
   Tally tally;
   for (const auto& path : test::real_models("khronos-validator")) {
     const std::string bytes = test::read_bytes(path);
     open_and_export(bytes, buffers_beside(path, bytes), path.filename().string(), tally);
   }
-  if (tally.opened + tally.refused > 0) CHECK(tally.opened > 20);
 }
 
-TEST_CASE("damaged models that once opened and could not be exported") {
+TEST_CASE("models that once opened and could not be exported, or lost what hangs on their parts") {
   Tally tally;
-  for (const auto& path : test::real_models("hunt/mutated")) {
+  for (const auto& path : test::real_models("hunt")) {
     open_and_export(test::read_bytes(path), {}, path.filename().string(), tally);
   }
+  CHECK(tally.refused == 0);
 }
 
 TEST_CASE("normals that cannot follow are named when the model is opened and when it is exported") {
