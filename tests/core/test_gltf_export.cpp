@@ -251,6 +251,28 @@ TEST_CASE("normals that cannot follow are named when the model is opened and whe
   CHECK(apply_fixture::attribute(out->glb, 0, "NORMAL")[0] == Vec3(Vec3::UnitX()));
 }
 
+TEST_CASE("a part that cannot be edited is named alike when the model is opened and when it is exported") {
+  Glb glb = small_table();
+  SUBCASE("bound to a skeleton") {
+    glb.json["nodes"][0]["skin"] = 0;
+    glb.json["skins"] = {{{"joints", {3}}}};
+  }
+  SUBCASE("instanced") {
+    glb.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = 0;
+  }
+  SUBCASE("flat") {
+    glb.json["nodes"][0]["scale"] = {1, 0, 1};
+  }
+  const auto model = abstract_shape(glb.bytes(), "table");
+  REQUIRE(model.ok());
+  REQUIRE(model->shape.parts[PartIndex(0)].node == 0);
+  const auto out = apply_program(glb.bytes(), model->shape, small_program(model->shape, true), {1});
+  REQUIRE(out.ok());
+  REQUIRE(out->warnings.size() == 1);
+  CHECK(std::any_of(model->shape.warnings.begin(), model->shape.warnings.end(),
+                    [&](const Warning& w) { return w.place == "node 0" && w.text == out->warnings[0].text; }));
+}
+
 TEST_CASE("data URIs may be percent-encoded, a first buffer may be missing, chunks may come twice") {
   Glb glb;
   const std::size_t position = glb.vectors(apply_fixture::grid(Vec3(-1, -1, -1), Vec3(1, 1, 1), 1));
