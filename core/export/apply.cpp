@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/export/apply_carry.h"
 #include "core/export/apply_nodes.h"
 #include "core/export/apply_sweep.h"
 #include "core/export/apply_vertices.h"
@@ -15,7 +16,7 @@ using gltf::JsonText;
 void warn_of_missing_images(const gltf::File& file, std::vector<Warning>& warnings) {
   for (std::size_t i = 0; i < file.size("images"); ++i) {
     const auto uri = file.item("images", i).get("uri").string();
-    if (!uri || uri->substr(0, 5) == "data:") continue;
+    if (!uri || gltf::is_data_uri(*uri)) continue;
     warnings.push_back({"image " + std::to_string(i), "it stays outside of the file: " + *uri});
   }
 }
@@ -40,25 +41,26 @@ Result<Applied> apply_state(std::string_view bytes, const Shape& shape, const St
   auto read = gltf::read_file(bytes, options.external);
   if (!read) return read.error();
   gltf::File file = std::move(read).value();
-  auto scene = gltf::read_scene(file);
+  auto scene = gltf::read_scene(file.original);
   if (!scene) return scene.error();
 
   Applied out;
   auto edits = apply::plan_nodes(file, *scene, shape, state, options, out.warnings);
   if (!edits) return edits.error();
+  apply::carry_nodes(file, *scene, shape.frame, edits->nodes, out.warnings);
   std::vector<apply::Track> tracks;
   if (options.sweep) {
     tracks = apply::plan_tracks(file, *scene, shape.frame, edits->nodes, out.warnings);
     if (tracks.empty())
       out.warnings.push_back({"animation " + options.sweep->name, "nothing moves, so it is left out"});
   }
-  if (file.is_glb && !edits->any && tracks.empty()) {
+  if (file.original.container.is_glb && !edits->any && tracks.empty()) {
     out.glb = std::string(bytes);
     return out;
   }
   apply::remove_nodes(file, *scene, edits->nodes, out.warnings);
   const apply::MeshEdits meshes = apply::assign_meshes(file, *scene, shape.frame, edits->nodes);
-  if (Status s = apply::write_vertices(file, meshes); !s.ok()) return s.error();
+  if (Status s = apply::write_vertices(file, meshes, out.warnings); !s.ok()) return s.error();
   if (options.sweep) {
     apply::write_animation(file, options.sweep->name, options.sweep->seconds, tracks);
     hide(file, edits->nodes);

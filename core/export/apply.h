@@ -2,21 +2,24 @@
 //
 // What changes: positions, normals, tangents and morph target deltas of edited parts, the bounds of their accessors,
 // `byteLength` of buffer 0 when data is appended, nodes that a changed count adds or removes. Every other byte of the
-// JSON and the binary chunk stays, white space and spelling of numbers included (core/edit/apply_json.h). When nothing
+// JSON and the binary chunk stays, white space and spelling of numbers included (core/gltf/json_text.h). When nothing
 // is edited, a GLB comes back byte for byte.
 //
-// What is kept with a warning: skinned and GPU-instanced nodes (left unedited), animations that move an edited node
-// (they go on moving it, edited).
+// Where something hangs on the node of a part that moves as a whole (children without meshes, an animation, a camera, a
+// light), the node's transform says the motion, and vertices stay (apply_carry.h).
+//
+// What is kept with a warning: skinned and GPU-instanced nodes (left unedited), attributes that cannot follow,
+// animations above an edited node (they go on moving it, edited).
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/edit/evaluate.h"
+#include "core/gltf/document.h"
 #include "core/shape/shape.h"
 
 namespace parsel {
@@ -34,7 +37,7 @@ struct ApplyOptions {
   /// stands for its instances.
   std::vector<PartIndex> only_parts;
   /// Buffers and images that a .gltf names, by URI.
-  std::map<std::string, std::string, std::less<>> external;
+  ExternalBuffers external;
 };
 
 struct Applied {

@@ -1,4 +1,4 @@
-// Reading and writing the accessors of a glTF file, every index and range checked before use.
+// Writing the accessors of a glTF file (core/gltf/accessor.h reads them).
 #pragma once
 
 #include <cstdint>
@@ -7,58 +7,25 @@
 #include <vector>
 
 #include "core/export/apply_file.h"
+#include "core/gltf/accessor.h"
 
 namespace parsel::gltf {
-
-/// Component types of glTF.
-inline constexpr std::size_t type_float = 5126;
-
-/// Where the elements of an accessor lie. Checked: the whole of it lies inside its buffer view and buffer.
-struct Layout {
-  std::size_t count = 0;
-  std::size_t components = 0;      ///< 1 to 4
-  std::size_t component_type = 0;  ///< 5120 … 5126
-  bool normalized = false;
-  bool sparse = false;
-  std::optional<std::size_t> view;  ///< without one the elements are zero
-  std::size_t buffer = 0;
-  std::size_t begin = 0;    ///< of the first element, in the buffer
-  std::size_t stride = 0;   ///< bytes from element to element
-  std::size_t element = 0;  ///< bytes of one element
-
-  std::size_t end() const { return count == 0 ? begin : begin + stride * (count - 1) + element; }
-};
-
-/// The byte range of a buffer view in its buffer.
-struct ViewRange {
-  std::size_t buffer = 0, begin = 0, end = 0;
-};
-
-/// None when the view is malformed or reaches beyond its buffer.
-std::optional<ViewRange> view_range(const File& file, std::size_t view);
-
-/// Error: no such accessor, a malformed field, a range outside of its buffer, a matrix type.
-Result<Layout> layout(const File& file, std::size_t accessor);
-
-/// All components in order, count × components, normalised integers as fractions, sparse values applied. Reads what
-/// the file brought, not what has been patched. Error: as layout(), or a buffer that is not there.
-Result<std::vector<double>> read_accessor(const File& file, std::size_t accessor);
-/// A SCALAR accessor of unsigned integers. Error: as read_accessor(), or another type.
-Result<std::vector<std::uint32_t>> read_indices(const File& file, std::size_t accessor);
 
 /// Who reads which bytes of the file as it came: what may be patched where it is, and what must be written anew.
 class Storage {
  public:
-  explicit Storage(const File& file);
+  explicit Storage(const Document& document);
 
-  /// Whether the accessor's bytes are plain floats in the binary chunk that nothing else in the file reads.
+  /// Whether the accessor's bytes are plain floats in the file's `home` buffer that nothing else in the file reads.
   bool can_patch_in_place(std::size_t accessor) const;
-  /// How often a buffer view is referred to, by accessors, sparse parts, images and extensions.
-  std::size_t references(std::size_t view) const { return view < references_.size() ? references_[view] : 0; }
+  /// Whether the view may describe other bytes, once the one accessor that reads it does not: nothing else refers to it
+  /// (accessors, sparse parts, images, extensions), and no extension of its own says more of its bytes.
+  bool is_free(std::size_t view) const;
 
  private:
-  void count_references(const JsonText& json);
+  void count_references(const nlohmann::json& json);
 
+  const Document& document_;
   std::vector<std::optional<Layout>> layouts_;            ///< of every accessor that has one
   std::vector<std::vector<std::size_t>> view_accessors_;  ///< of every view
   std::vector<std::size_t> references_;

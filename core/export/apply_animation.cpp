@@ -114,7 +114,7 @@ void write_animation(File& file, const std::string& name, double seconds, const 
   const std::size_t samples = std::max({any.placements.size(), any.weights.size(), any.visible.size()});
   AnimationWriter out(file, seconds, samples);
   for (const Track& track : tracks) {
-    const Placement rest = gltf::placement(file.item("nodes", track.node));
+    const Placement rest = gltf::transform_of(file.item("nodes", track.node)).placement;
     if (!track.placements.empty()) write_placements(out, track, rest);
     if (!track.weights.empty()) write_weights(out, track);
     if (!track.visible.empty()) write_visibility(out, track, rest.scale);

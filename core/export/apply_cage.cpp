@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/gltf/transform.h"
+
 namespace parsel::apply {
 namespace {
 
@@ -24,21 +26,6 @@ Mat3 half_edges(const Corners& corners) {
     for (int axis = 0; axis < 3; ++axis) edges.col(axis) += corners.row(k).transpose() * corner_sign(k, axis) / 8;
   }
   return edges;
-}
-
-bool invertible(const Mat3& m) {
-  const double size = m.norm();
-  return std::isfinite(size) && size > 0 && std::abs(m.determinant()) > 1e-12 * size * size * size;
-}
-
-/// As above, for a map whose columns may be of very different lengths (a thin box, a stretched node).
-bool independent_columns(Mat3 m) {
-  for (int i = 0; i < 3; ++i) {
-    const double length = m.col(i).norm();
-    if (!std::isfinite(length) || length < 1e-150) return false;
-    m.col(i) /= length;
-  }
-  return invertible(m);
 }
 
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
@@ -70,8 +57,8 @@ Vec3 transform_tangent(const Mat3& jacobian, const Vec3& t) {
 std::optional<CageMap> make_cage_map(const Frame& frame, const Corners& rest, const Eigen::Affine3d& rest_world,
                                      const Corners& corners, const Eigen::Affine3d& world, bool moves) {
   const Mat3 edges = half_edges(rest);
-  if (!independent_columns(edges) || !independent_columns(rest_world.linear()) ||
-      !independent_columns(world.linear()) || !(frame.scale > 0)) {
+  if (!gltf::independent_columns(edges) || !gltf::independent_columns(rest_world.linear()) ||
+      !gltf::independent_columns(world.linear()) || !(frame.scale > 0)) {
     return std::nullopt;
   }
   CageMap map;

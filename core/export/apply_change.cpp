@@ -20,9 +20,9 @@ bool Change::agrees(const Change& other) const {
 
 Status Source::load(std::size_t accessor) {
   if (values_.count(accessor) > 0) return success();
-  const auto where = gltf::layout(file_, accessor);
+  const auto where = gltf::layout(document_, accessor);
   if (!where) return where.error();
-  auto values = gltf::read_accessor(file_, accessor);
+  auto values = gltf::read_accessor(document_, accessor);
   if (!values) return values.error();
   values_[accessor] = {where->components, std::move(values).value()};
   return success();

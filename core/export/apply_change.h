@@ -28,7 +28,7 @@ struct Change {
 /// The accessors as they came, decoded once.
 class Source {
  public:
-  explicit Source(const gltf::File& file) : file_(file) {}
+  explicit Source(const gltf::Document& document) : document_(document) {}
 
   /// Error: as gltf::read_accessor(). The other functions are for what has been loaded.
   Status load(std::size_t accessor);
@@ -38,7 +38,7 @@ class Source {
   Vec4 element(std::size_t accessor, std::size_t i) const;
 
  private:
-  const gltf::File& file_;
+  const gltf::Document& document_;
   std::map<std::size_t, std::pair<std::size_t, std::vector<double>>> values_;
 };
 

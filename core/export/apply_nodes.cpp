@@ -12,6 +12,8 @@ using gltf::JsonText;
 
 /// Corners that differ by no more than this are at rest.
 constexpr double at_rest = 1e-12;
+/// Cages with corners further out have no place in a file of floats, which end at 3.4e38.
+constexpr double largest_corner = 1e37;
 /// A new instance is a moved copy when its corners are that of one to numerical noise.
 constexpr double moved_copy = 1e-7;
 
@@ -46,7 +48,6 @@ class Planner {
       }
       out.nodes.push_back(std::move(edit));
     }
-    warn_of_animations(out.nodes);
     return out;
   }
 
@@ -59,17 +60,22 @@ class Planner {
     return all;
   }
 
+  /// Whether the cage fits the floats of a file, in model units.
+  bool fits_floats(const Corners& corners) const {
+    return corners.allFinite() && (corners * shape_.frame.scale).cwiseAbs().maxCoeff() <= largest_corner;
+  }
+
   Status check_states() const {
     for (const State* state : all_states()) {
       if (state->parts.size() != shape_.parts.size() || state->groups.size() != shape_.relations.size()) {
         return refusal("state", "it does not belong to the shape");
       }
       for (const Corners& corners : state->parts) {
-        if (!corners.allFinite()) return refusal("state", "a corner is not a finite number");
+        if (!fits_floats(corners)) return refusal("state", "a corner is not a number that a file can hold");
       }
       for (const GroupState& group : state->groups) {
         for (const Corners& corners : group.instances) {
-          if (!corners.allFinite()) return refusal("state", "a corner is not a finite number");
+          if (!fits_floats(corners)) return refusal("state", "a corner is not a number that a file can hold");
         }
       }
     }
@@ -204,6 +210,10 @@ class Planner {
       return instance_in(s.groups[r], k);
     });
     if (!selected(copied) || !slot.keep || !template_slot.keep) return;
+    if (const std::string fixed = gltf::why_fixed(file_.original, scene_, source); !fixed.empty()) {
+      warnings_.push_back({"part " + part.id, "it gets no new instances: " + fixed});
+      return;
+    }
 
     NodeEdit edit;
     edit.mesh = template_edit.mesh;
@@ -241,12 +251,9 @@ class Planner {
     return parent.inverse(Eigen::Affine) * model * scene_.world[source];
   }
 
-  /// What cannot show an edit is left as it was, and said so.
+  /// What cannot show an edit stays as it was, and is named as it was when the file was opened.
   void set_aside(NodeEdit& edit) {
-    const JsonText& node = file_.item("nodes", edit.node);
-    const char* why = nullptr;
-    if (node.has("skin")) why = "left as it was: it is bound to a skeleton";
-    if (node.get("extensions").has("EXT_mesh_gpu_instancing")) why = "left as it was: its node is GPU-instanced";
+    const std::string fixed = edit.added ? "" : gltf::why_fixed(file_.original, scene_, edit.node);
     for (Slot& slot : edit.slots) {
       if (!slot.is_part || !slot.keep) continue;
       const auto differs = [&](const auto& sample) {
@@ -257,32 +264,14 @@ class Planner {
         slot.samples.clear();
         continue;
       }
-      const bool possible =
-          make_cage_map(shape_.frame, slot.rest, edit.rest_world, slot.shown, scene_.world[edit.node], slot.moves)
-              .has_value();
-      if (possible && why == nullptr) continue;
-      warnings_.push_back({"part " + slot.part, possible ? why : "left as it was: the transform of its node is flat"});
+      const auto map =
+          make_cage_map(shape_.frame, slot.rest, edit.rest_world, slot.shown, scene_.world[edit.node], slot.moves);
+      const bool possible = map && map->corners.cwiseAbs().maxCoeff() <= largest_corner;
+      if (possible && fixed.empty()) continue;
+      warnings_.push_back({"part " + slot.part, "it stays as it is when it is edited: " +
+                                                    (fixed.empty() ? "its new place is too flat, or too far" : fixed)});
       slot.moves = slot.hidden = false;
       slot.samples.clear();
-    }
-  }
-
-  void warn_of_animations(const std::vector<NodeEdit>& edits) {
-    std::set<std::size_t> animated;
-    for (std::size_t a = 0; a < file_.size("animations"); ++a) {
-      const JsonText& channels = file_.item("animations", a).get("channels");
-      for (std::size_t c = 0; c < channels.size(); ++c) {
-        if (const auto node = channels.item(c).get("target").get("node").index()) animated.insert(*node);
-      }
-    }
-    if (animated.empty()) return;
-    for (const NodeEdit& edit : edits) {
-      const bool moves = std::any_of(edit.slots.begin(), edit.slots.end(), [](const Slot& s) { return s.moves; });
-      std::optional<std::size_t> at = edit.node;
-      while (moves && at && animated.count(*at) == 0) at = scene_.parent[*at];
-      if (!moves || !at) continue;
-      warnings_.push_back({"node " + std::to_string(edit.node),
-                           "the file's own animations go on moving it; the edit was made in the pose at rest"});
     }
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gltf/primitive.h"
+
 namespace parsel::apply {
 namespace {
 
@@ -51,17 +53,29 @@ double distance(const std::vector<Corners>& a, const std::vector<Corners>& b) {
   return worst;
 }
 
+/// Whether meshes hang below the node, which its motion would take along. Whatever else does is to go along.
+bool shows_more_below(const File& file, const gltf::Scene& scene, std::size_t node) {
+  std::vector<std::size_t> pending = scene.children[node];
+  while (!pending.empty()) {
+    const std::size_t n = pending.back();
+    pending.pop_back();
+    if (file.item("nodes", n).has("mesh")) return true;
+    pending.insert(pending.end(), scene.children[n].begin(), scene.children[n].end());
+  }
+  return false;
+}
+
 /// The node's placement at every sample, when its motion is one that a placement can say.
 std::vector<Placement> placements_along(const File& file, const gltf::Scene& scene, const Frame& frame,
                                         const NodeEdit& edit, const Path& path) {
   const JsonText& json = file.item("nodes", edit.node);
-  if (json.has("matrix") || !scene.children[edit.node].empty()) return {};
+  if (json.has("matrix") || shows_more_below(file, scene, edit.node)) return {};
   for (const Slot& slot : edit.slots) {
     if (slot.keep && !slot.is_part) return {};
   }
   const Eigen::Affine3d parent = scene.parent_world(edit.node);
   if (std::abs(parent.linear().determinant()) < 1e-150) return {};
-  const Placement before = gltf::placement(json);
+  const Placement before = gltf::transform_of(json).placement;
   Eigen::Affine3d to_model = Eigen::Affine3d::Identity();
   to_model.linear() *= frame.scale;
   to_model.translation() = frame.centre;
@@ -157,14 +171,6 @@ std::vector<std::size_t> weight_keys(const std::vector<std::vector<Corners>>& ta
   });
 }
 
-bool has_targets(const File& file, std::size_t mesh) {
-  const JsonText& primitives = file.item("meshes", mesh).get("primitives");
-  for (std::size_t p = 0; p < primitives.size(); ++p) {
-    if (primitives.item(p).has("targets")) return true;
-  }
-  return false;
-}
-
 /// Whether a node may come and go by its scale.
 bool can_hide(const File& file, const gltf::Scene& scene, const NodeEdit& edit) {
   return !file.item("nodes", edit.node).has("matrix") && scene.children[edit.node].empty();
@@ -192,15 +198,18 @@ std::vector<Track> plan_tracks(const File& file, const gltf::Scene& scene, const
     for (const auto& sample : path->samples) moved = std::max(moved, distance(sample, path->shown));
     if (moved > target_error) {
       track.placements = placements_along(file, scene, frame, edit, *path);
-      const Vec3 scale = gltf::placement(file.item("nodes", edit.node)).scale;
+      const Vec3 scale = gltf::transform_of(file.item("nodes", edit.node)).placement.scale;
       const bool scales = std::any_of(track.placements.begin(), track.placements.end(),
                                       [&](const Placement& p) { return !p.scale.isApprox(scale, 1e-9); });
       // Coming and going needs the scale track for itself.
       if (scales && !track.visible.empty()) track.placements.clear();
       if (!track.placements.empty()) {
         track.keys = placement_keys(scene, frame, edit, *path, track.placements);
-      } else if (has_targets(file, edit.mesh)) {
-        warnings.push_back({place, "its motion is not in the animation, as its mesh has morph targets of its own"});
+      } else if (!gltf::can_morph(file.original, file.original.meshes[edit.mesh])) {
+        warnings.push_back(
+            {place,
+             "its motion is not in the animation, as its mesh has morph targets of its own or a primitive "
+             "that cannot be read"});
       } else {
         std::vector<std::vector<Corners>> targets;
         track.weights = span_path(*path, targets);

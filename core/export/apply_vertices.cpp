@@ -4,10 +4,15 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/export/apply_accessor.h"
 #include "core/export/apply_change.h"
+#include "core/export/apply_extension.h"
+#include "core/gltf/primitive.h"
+#include "core/gltf/sections.h"
 
 namespace parsel::apply {
 namespace {
@@ -16,9 +21,7 @@ using gltf::File;
 using gltf::JsonText;
 using nlohmann::ordered_json;
 
-Error refusal(std::string place, std::string cause) {
-  return {"edit/apply_vertices", std::move(place), std::move(cause), "repair the file with a glTF tool"};
-}
+constexpr double largest_float = std::numeric_limits<float>::max();
 
 std::string place_of(const PrimitiveKey& key) {
   return "mesh " + std::to_string(key.first) + ", primitive " + std::to_string(key.second);
@@ -35,9 +38,11 @@ struct Use {
 
 class Writer {
  public:
-  Writer(File& file, const MeshEdits& edits) : file_(file), edits_(edits), storage_(file), source_(file) {}
+  Writer(File& file, const MeshEdits& edits, std::vector<Warning>& warnings)
+      : file_(file), edits_(edits), warnings_(warnings), storage_(file.original), source_(file.original) {}
 
   Status run() {
+    find_lost();
     if (Status s = collect_uses(); !s.ok()) return s;
     if (Status s = prepare_targets(); !s.ok()) return s;
     for (const auto& [accessor, uses] : uses_) {
@@ -55,23 +60,46 @@ class Writer {
     return found == edits_.maps.end() ? nullptr : &found->second;
   }
 
+  /// What cannot follow stays, and a compressed copy of what changes goes.
+  void find_lost() {
+    std::set<PrimitiveKey> keys;
+    for (const auto& [key, map] : edits_.maps) keys.insert(key);
+    for (const auto& [mesh, count] : edits_.new_targets) {
+      for (std::size_t p = 0; p < file_.item("meshes", mesh).get("primitives").size(); ++p) keys.insert({mesh, p});
+    }
+    for (const PrimitiveKey& key : keys) {
+      const auto now = gltf::read_primitive(nlohmann::json::parse(primitive(key).text()), place_of(key));
+      PARSEL_ASSERT(now.ok(), "it was read before");
+      for (const gltf::LostAttribute& lost : gltf::lost_attributes(file_.original, *now)) {
+        lost_[key].insert(lost.key);
+        warnings_.push_back({place_of(key), lost.why});
+      }
+      if (!now->has_draco) continue;
+      gltf::erase_extension(*find_primitive(key), gltf::draco);
+      gltf::forget_unused_extension(file_, gltf::draco);
+    }
+  }
+
+  bool is_lost(const PrimitiveKey& key, const std::optional<std::size_t>& target, const std::string& name) const {
+    const auto found = lost_.find(key);
+    return found != lost_.end() && found->second.count({target, name}) > 0;
+  }
+
   const JsonText& primitive(const PrimitiveKey& key) const {
     return file_.item("meshes", key.first).get("primitives").item(key.second);
   }
 
   Status add(std::size_t accessor, Use use) {
     if (use.change.role != Role::untouched) {
-      if (Status s = source_.load(accessor); !s.ok()) return s;
-      const std::size_t wanted = use.change.role == Role::tangent ? 4 : 3;
-      if (source_.components(accessor) != wanted) {
-        return refusal(place_of(use.primitive), use.attribute + " has the wrong type");
-      }
-      for (const auto& other : {use.change.position, use.change.base, use.change.target_position}) {
+      const auto& change = use.change;
+      const std::initializer_list<std::optional<std::size_t>> all = {accessor, change.position, change.base,
+                                                                     change.target_position};
+      for (const auto& other : all) {
         if (!other) continue;
         if (Status s = source_.load(*other); !s.ok()) return s;
-        if (source_.count(*other) != source_.count(accessor)) {
-          return refusal(place_of(use.primitive), "its attributes have different counts");
-        }
+      }
+      for (const auto& other : all) {
+        PARSEL_ASSERT(!other || source_.count(*other) == source_.count(accessor), "others are lost attributes");
       }
     }
     uses_[accessor].push_back(std::move(use));
@@ -91,18 +119,19 @@ class Writer {
       if (!accessor) continue;
       Use use{{}, key, target, name, json.get("indices").index()};
       use.change = {Role::untouched, map, base.get("POSITION").index(), std::nullopt, std::nullopt};
-      if (moves && !target) {
+      if (moves && is_lost(key, target, name)) {
+        use.change.role = Role::untouched;
+      } else if (moves && !target) {
         if (name == "POSITION") use.change.role = Role::position;
         if (name == "NORMAL") use.change.role = Role::normal;
         if (name == "TANGENT") use.change.role = Role::tangent;
       } else if (moves && (name == "POSITION" || base.get(name).index())) {
-        use.change.target_position = attributes.get("POSITION").index();
+        if (!is_lost(key, target, "POSITION")) use.change.target_position = attributes.get("POSITION").index();
         if (name == "POSITION") use.change.role = Role::target_position;
         if (name == "NORMAL") use.change.role = Role::target_normal;
         if (name == "TANGENT") use.change.role = Role::target_tangent;
         if (name != "POSITION") use.change.base = base.get(name).index();
       }
-      if (moves && !use.change.position) return refusal(place_of(key), "it has no POSITION");
       if (Status s = add(*accessor, std::move(use)); !s.ok()) return s;
     }
     return success();
@@ -113,10 +142,6 @@ class Writer {
       const JsonText& primitives = file_.item("meshes", m).get("primitives");
       for (std::size_t p = 0; p < primitives.size(); ++p) {
         const PrimitiveKey key{m, p};
-        if (map_of(key) != nullptr && primitive(key).get("extensions").has("KHR_draco_mesh_compression")) {
-          return Error{"edit/apply_vertices", place_of(key), "it is compressed with Draco",
-                       "decompress the file first"};
-        }
         if (Status s = collect_attributes(key, std::nullopt); !s.ok()) return s;
         for (std::size_t t = 0; t < primitive(key).get("targets").size(); ++t) {
           if (Status s = collect_attributes(key, t); !s.ok()) return s;
@@ -148,15 +173,12 @@ class Writer {
     for (const auto& [mesh, count] : edits_.new_targets) {
       for (std::size_t p = 0; p < file_.item("meshes", mesh).get("primitives").size(); ++p) {
         const JsonText& attributes = primitive({mesh, p}).get("attributes");
-        const auto position = attributes.get("POSITION").index();
-        if (!position) return refusal(place_of({mesh, p}), "it has no POSITION");
-        Originals originals{*position, attributes.get("NORMAL").index(), attributes.get("TANGENT").index()};
-        for (const auto& accessor : {position, originals.normal, originals.tangent}) {
+        Originals originals{attributes.get("POSITION").index().value(), std::nullopt, std::nullopt};
+        if (!is_lost({mesh, p}, std::nullopt, "NORMAL")) originals.normal = attributes.get("NORMAL").index();
+        if (!is_lost({mesh, p}, std::nullopt, "TANGENT")) originals.tangent = attributes.get("TANGENT").index();
+        for (const auto& accessor : {std::optional(originals.position), originals.normal, originals.tangent}) {
           if (!accessor) continue;
           if (Status s = source_.load(*accessor); !s.ok()) return s;
-          if (source_.count(*accessor) != source_.count(*position)) {
-            return refusal(place_of({mesh, p}), "its attributes have different counts");
-          }
         }
         originals_.emplace(PrimitiveKey{mesh, p}, originals);
       }
@@ -164,19 +186,17 @@ class Writer {
     return success();
   }
 
-  /// The vertices that a use needs; none means all.
-  Result<const std::vector<std::uint32_t>*> vertices(const Use& use, std::size_t count) {
+  /// The vertices that a use needs; null means all, as for indices that cannot be read (of a mesh that nobody sees).
+  const std::vector<std::uint32_t>* vertices(const Use& use, std::size_t count) {
     if (!use.indices) return nullptr;
     auto found = indices_.find(*use.indices);
     if (found == indices_.end()) {
-      auto read = gltf::read_indices(file_, *use.indices);
-      if (!read) return read.error();
-      found = indices_.emplace(*use.indices, std::move(read).value()).first;
+      auto read = gltf::read_indices(file_.original, *use.indices);
+      found = indices_.emplace(*use.indices, read.ok() ? std::optional(std::move(read).value()) : std::nullopt).first;
     }
-    for (const std::uint32_t i : found->second) {
-      if (i >= count) return refusal(place_of(use.primitive), "an index is out of range");
-    }
-    return &found->second;
+    if (!found->second) return nullptr;
+    const auto out_of_range = [&](std::uint32_t i) { return i >= count; };
+    return std::any_of(found->second->begin(), found->second->end(), out_of_range) ? nullptr : &*found->second;
   }
 
   /// A version of an accessor: for every vertex which change (index into `changes`, 0 is untouched) it gets.
@@ -221,13 +241,12 @@ class Writer {
       for (const bool touched : {false, true}) {
         for (std::size_t u = 0; u < uses.size(); ++u) {
           if ((change_of[u] != 0) != touched) continue;
-          const auto needed = vertices(uses[u], count);
-          if (!needed) return needed.error();
+          const std::vector<std::uint32_t>* needed = vertices(uses[u], count);
           std::size_t c = 0;
-          while (c < copies.size() && !claim(copies[c], *needed, change_of[u])) ++c;
+          while (c < copies.size() && !claim(copies[c], needed, change_of[u])) ++c;
           if (c == copies.size()) {
             copies.push_back({std::vector<std::uint32_t>(count, unclaimed), {}});
-            claim(copies[c], *needed, change_of[u]);
+            claim(copies[c], needed, change_of[u]);
           }
           copies[c].uses.push_back(&uses[u]);
         }
@@ -249,11 +268,12 @@ class Writer {
       any = any || touched;
       positions = positions || change.role == Role::position || change.role == Role::target_position;
       const Vec4 value = changed(source_, change, accessor, i);
+      // The corners of all cages fit floats (plan_nodes), so only a vertex far outside, which no triangle shows, can be
+      // beyond them; it stays.
+      const bool fits = !touched || value.head(static_cast<Eigen::Index>(n)).cwiseAbs().maxCoeff() <= largest_float;
+      const Vec4 kept = fits ? value : source_.element(accessor, i);
       for (std::size_t c = 0; c < n; ++c) {
-        values[i * n + c] = static_cast<float>(value[static_cast<Eigen::Index>(c)]);
-        if (touched && !std::isfinite(values[i * n + c]) && source_.element(accessor, i).allFinite()) {
-          return refusal("accessor " + std::to_string(accessor), "the edit makes its numbers too large for a float");
-        }
+        values[i * n + c] = static_cast<float>(kept[static_cast<Eigen::Index>(c)]);
       }
     }
     if (!any) return success();
@@ -262,7 +282,7 @@ class Writer {
       const std::size_t index = gltf::append_accessor(file_, data, accessor);
       for (const Use* use : copy.uses) point_at(*use, index);
     } else if (storage_.can_patch_in_place(accessor)) {
-      const auto where = gltf::layout(file_, accessor);
+      const auto where = gltf::layout(file_.original, accessor);
       for (std::size_t i = 0; i < count; ++i) {
         if (copy.change[i] != unclaimed && copy.change[i] != 0) gltf::patch_element(file_, *where, i, &values[i * n]);
       }
@@ -338,18 +358,20 @@ class Writer {
 
   File& file_;
   const MeshEdits& edits_;
+  std::vector<Warning>& warnings_;
   const gltf::Storage storage_;
   Source source_;
-  std::map<std::size_t, std::vector<Use>> uses_;  ///< of every accessor
-  std::map<std::size_t, std::vector<std::uint32_t>> indices_;
+  std::map<std::size_t, std::vector<Use>> uses_;                              ///< of every accessor
+  std::map<std::size_t, std::optional<std::vector<std::uint32_t>>> indices_;  ///< none: cannot be read
   std::map<PrimitiveKey, Originals> originals_;
+  std::map<PrimitiveKey, std::set<gltf::AttributeKey>> lost_;
 };
 
 }  // namespace
 
-Status write_vertices(File& file, const MeshEdits& edits) {
+Status write_vertices(File& file, const MeshEdits& edits, std::vector<Warning>& warnings) {
   if (edits.maps.empty()) return success();
-  return Writer(file, edits).run();
+  return Writer(file, edits, warnings).run();
 }
 
 }  // namespace parsel::apply

@@ -7,14 +7,15 @@
 #pragma once
 
 #include "core/export/apply_mesh.h"
+#include "core/shape/shape.h"
 
 namespace parsel::apply {
 
 /// Positions, normals, tangents and the deltas of morph targets that the primitives have; then the morph targets that
 /// they get. Existing deltas become exact differences of deformed vertices, D(p + δ) − D(p), so that every target is
 /// right at weight 1. Data that cannot be patched where it is (shared bytes, sparse, quantised, outside of the binary
-/// chunk) is appended as plain floats. Error: accessors that are malformed or of unequal count, results that are no
-/// finite floats.
-Status write_vertices(gltf::File& file, const MeshEdits& edits);
+/// chunk) is appended as plain floats. Attributes that cannot follow (gltf::lost_attributes()) stay, with a warning; of
+/// a primitive that Draco holds as well, the compressed copy goes. Error: positions that cannot be read.
+Status write_vertices(gltf::File& file, const MeshEdits& edits, std::vector<Warning>& warnings);
 
 }  // namespace parsel::apply

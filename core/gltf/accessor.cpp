@@ -1,195 +1,257 @@
 #include "core/gltf/accessor.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <utility>
 
-namespace parsel {
+#include "core/gltf/refusal.h"
+
+namespace parsel::gltf {
 namespace {
 
-Error damaged(int accessor, std::string cause) {
-  return {"shape/gltf_import", "accessor " + std::to_string(accessor), std::move(cause), "export the model again"};
+static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian and read as they are");
+
+/// Triangle lists name each vertex some six times; far more, and a count asks for memory that no model needs.
+constexpr std::size_t most_indices_per_vertex = 8;
+
+Error damaged(std::size_t accessor, std::string cause) {
+  return refused("accessor " + std::to_string(accessor), std::move(cause));
 }
 
-/// A checked run of elements: element i starts at bytes[i · stride] and ends inside.
-struct Run {
-  std::string_view bytes;
-  std::size_t stride = 0;
-};
-
-/// `count` elements of `element_size` bytes from `offset` of a bufferView.
-Result<Run> find_run(const GltfDocument& document, int accessor, int view_index, std::size_t offset, std::size_t count,
-                     std::size_t element_size, bool strided) {
-  const auto& views = document.model.bufferViews;
-  if (view_index < 0 || static_cast<std::size_t>(view_index) >= views.size()) {
-    return damaged(accessor, "bufferView " + std::to_string(view_index) + " does not exist");
-  }
-  const tinygltf::BufferView& view = views[static_cast<std::size_t>(view_index)];
-  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= document.buffers.size()) {
-    return damaged(accessor, "buffer " + std::to_string(view.buffer) + " does not exist");
-  }
-  const GltfBuffer& buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
-  // All numbers are below 2³¹ (checked when the document was read), so nothing overflows 64 bits.
-  const std::uint64_t view_end = std::uint64_t{view.byteOffset} + view.byteLength;
-  if (view_end > buffer.bytes.size()) {
-    return damaged(accessor, "bufferView " + std::to_string(view_index) + " reaches beyond its buffer");
-  }
-  const std::uint64_t stride = strided && view.byteStride > 0 ? view.byteStride : element_size;
-  if (stride < element_size) return damaged(accessor, "byteStride is smaller than an element");
-  const std::uint64_t needed = count == 0 ? 0 : std::uint64_t{offset} + stride * (count - 1) + element_size;
-  if (needed > view.byteLength) {
-    return damaged(accessor,
-                   "its " + std::to_string(count) + " elements reach beyond bufferView " + std::to_string(view_index));
-  }
-  const std::size_t start = std::min<std::size_t>(offset, view.byteLength);
-  return Run{buffer.bytes.substr(view.byteOffset + start, view.byteLength - start), static_cast<std::size_t>(stride)};
-}
-
-template <class T>
-T load(const char* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof value);  // glTF is little-endian, as every platform we build for
-  return value;
-}
-
-/// One component as glTF 2.0 §3.6.2.2 says; `normalized` maps integers to [0,1] or [-1,1].
-double component(const char* bytes, int type, bool normalized) {
+std::size_t component_size(std::size_t type) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: {
-      const double value = load<std::int8_t>(bytes);
-      return normalized ? std::max(value / 127.0, -1.0) : value;
-    }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return load<std::uint8_t>(bytes) / (normalized ? 255.0 : 1.0);
-    case TINYGLTF_COMPONENT_TYPE_SHORT: {
-      const double value = load<std::int16_t>(bytes);
-      return normalized ? std::max(value / 32767.0, -1.0) : value;
-    }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return load<std::uint16_t>(bytes) / (normalized ? 65535.0 : 1.0);
-    default:
-      return static_cast<double>(load<float>(bytes));
-  }
-}
-
-std::size_t component_size(int type) {
-  switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case type_byte:
+    case type_unsigned_byte:
       return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case type_short:
+    case type_unsigned_short:
       return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+    case type_unsigned_int:
+    case type_float:
       return 4;
     default:
       return 0;
   }
 }
 
-bool is_index_type(int type) {
-  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+bool is_index_type(std::size_t type) {
+  return type == type_unsigned_byte || type == type_unsigned_short || type == type_unsigned_int;
 }
 
-std::uint32_t load_index(const char* bytes, int type) {
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return load<std::uint8_t>(bytes);
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return load<std::uint16_t>(bytes);
+template <class T>
+T load(const char* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
+  return value;
+}
+
+/// One component as glTF 2.0 §3.6.2.2 says; `normalized` maps integers to [0,1] or [-1,1].
+double component(const char* bytes, std::size_t type, bool normalized) {
+  switch (type) {
+    case type_byte: {
+      const double value = load<std::int8_t>(bytes);
+      return normalized ? std::max(value / 127.0, -1.0) : value;
+    }
+    case type_unsigned_byte:
+      return load<std::uint8_t>(bytes) / (normalized ? 255.0 : 1.0);
+    case type_short: {
+      const double value = load<std::int16_t>(bytes);
+      return normalized ? std::max(value / 32767.0, -1.0) : value;
+    }
+    case type_unsigned_short:
+      return load<std::uint16_t>(bytes) / (normalized ? 65535.0 : 1.0);
+    case type_unsigned_int:
+      return load<std::uint32_t>(bytes);
+    default:
+      return static_cast<double>(load<float>(bytes));
+  }
+}
+
+std::uint32_t load_index(const char* bytes, std::size_t type) {
+  if (type == type_unsigned_byte) return load<std::uint8_t>(bytes);
+  if (type == type_unsigned_short) return load<std::uint16_t>(bytes);
   return load<std::uint32_t>(bytes);
 }
 
-/// Reads the elements, then lets the sparse ones replace theirs. `read` decodes one element.
-template <class T, class Read>
-Result<std::vector<T>> read_elements(const GltfDocument& document, int index, std::size_t element_size, const T& zero,
-                                     const Read& read) {
-  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
-  std::vector<T> values(accessor.count, zero);
-  if (accessor.bufferView >= 0) {
-    const Result<Run> run =
-        find_run(document, index, accessor.bufferView, accessor.byteOffset, accessor.count, element_size, true);
-    if (!run.ok()) return run.error();
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = read(run->bytes.data() + i * run->stride);
-  }  // an accessor without bufferView is all zeros (glTF 2.0 §3.6.2.3)
-  if (!accessor.sparse.isSparse) return values;
+/// `where` (count, type and components given) placed at `offset` of a view.
+Result<Layout> place_in_view(const Document& document, std::size_t accessor, std::size_t view, std::size_t offset,
+                             bool strided, Layout where) {
+  if (view >= document.views.size()) {
+    return damaged(accessor, "bufferView " + std::to_string(view) + " does not exist");
+  }
+  const BufferView& entry = document.views[view];
+  if (entry.buffer >= document.buffers.size()) {
+    return damaged(accessor, "buffer " + std::to_string(entry.buffer) + " does not exist");
+  }
+  const auto range = view_range(document, view);
+  if (!range) return damaged(accessor, "bufferView " + std::to_string(view) + " reaches beyond its buffer");
+  where.view = view;
+  where.buffer = range->buffer;
+  where.element = where.components * component_size(where.component_type);
+  where.stride = where.element;
+  if (strided && entry.stride > 0) {
+    where.stride = entry.stride;
+    if (where.stride < where.element) return damaged(accessor, "its byteStride is smaller than an element");
+  }
+  // All numbers are below 2³¹ (checked when the document was read), so nothing overflows 64 bits.
+  const std::uint64_t needed =
+      where.count == 0
+          ? 0
+          : std::uint64_t{offset} + std::uint64_t{where.stride} * (where.count - 1) + std::uint64_t{where.element};
+  if (needed > entry.length) {
+    return damaged(accessor,
+                   "its " + std::to_string(where.count) + " elements reach beyond bufferView " + std::to_string(view));
+  }
+  where.begin = range->begin + std::min(offset, entry.length);
+  return where;
+}
 
-  const auto& sparse = accessor.sparse;
-  const auto count = static_cast<std::size_t>(sparse.count);
-  if (count > accessor.count) return damaged(index, "it has more sparse elements than elements");
-  if (!is_index_type(sparse.indices.componentType)) return damaged(index, "its sparse indices are of no index type");
-  const std::size_t index_size = component_size(sparse.indices.componentType);
-  const Result<Run> at = find_run(document, index, sparse.indices.bufferView,
-                                  static_cast<std::size_t>(sparse.indices.byteOffset), count, index_size, false);
+Status within_reach(const Document& document, std::size_t accessor, const Layout& where) {
+  const std::string& missing = document.buffers[where.buffer].missing;
+  return missing.empty() ? success() : damaged(accessor, missing);
+}
+
+const char* element_of(const Document& document, const Layout& where, std::size_t i) {
+  return document.buffers[where.buffer].bytes.data() + where.begin + i * where.stride;
+}
+
+/// Where the replaced elements of a sparse accessor and their indices lie; every index is below the count.
+struct SparseLayout {
+  Layout indices, values;
+};
+
+Result<SparseLayout> sparse_layout(const Document& document, std::size_t accessor, const Layout& base) {
+  const Accessor::Sparse& sparse = *document.accessors[accessor].sparse;
+  if (sparse.count > base.count) return damaged(accessor, "it has more sparse elements than elements");
+  if (!is_index_type(sparse.index_type)) return damaged(accessor, "its sparse indices are of no index type");
+  Layout indices, values = base;
+  indices.count = values.count = sparse.count;
+  indices.components = 1;
+  indices.component_type = sparse.index_type;
+  auto at = place_in_view(document, accessor, sparse.index_view, sparse.index_offset, false, indices);
   if (!at.ok()) return at.error();
-  const Result<Run> with = find_run(document, index, sparse.values.bufferView,
-                                    static_cast<std::size_t>(sparse.values.byteOffset), count, element_size, false);
+  auto with = place_in_view(document, accessor, sparse.value_view, sparse.value_offset, false, values);
   if (!with.ok()) return with.error();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t target = load_index(at->bytes.data() + i * at->stride, sparse.indices.componentType);
-    if (target >= values.size()) return damaged(index, "a sparse index is out of range");
-    values[target] = read(with->bytes.data() + i * with->stride);
+  for (const Layout* part : {&*at, &*with}) {
+    if (Status s = within_reach(document, accessor, *part); !s.ok()) return s.error();
+  }
+  for (std::size_t i = 0; i < sparse.count; ++i) {
+    if (load_index(element_of(document, *at, i), sparse.index_type) >= base.count) {
+      return damaged(accessor, "a sparse index is out of range");
+    }
+  }
+  return SparseLayout{*at, *with};
+}
+
+/// Reads the elements, then lets the sparse ones replace theirs. `read` decodes one element to values[i · size].
+template <class T, class Read>
+Result<std::vector<T>> read_elements(const Document& document, std::size_t accessor, const Layout& where,
+                                     std::size_t size, const T& zero, const Read& read) {
+  std::vector<T> values(where.count * size, zero);
+  if (where.view) {
+    if (Status s = within_reach(document, accessor, where); !s.ok()) return s.error();
+    for (std::size_t i = 0; i < where.count; ++i) read(element_of(document, where, i), &values[i * size]);
+  }
+  if (!document.accessors[accessor].sparse) return values;
+  const auto sparse = sparse_layout(document, accessor, where);
+  if (!sparse.ok()) return sparse.error();
+  for (std::size_t i = 0; i < sparse->indices.count; ++i) {
+    const std::size_t target = load_index(element_of(document, sparse->indices, i), sparse->indices.component_type);
+    read(element_of(document, sparse->values, i), &values[target * size]);
   }
   return values;
 }
 
-bool exists(const GltfDocument& document, int accessor) {
-  return accessor >= 0 && static_cast<std::size_t>(accessor) < document.model.accessors.size();
-}
-
 }  // namespace
 
-std::string out_of_reach(const GltfDocument& document, int accessor) {
-  if (!exists(document, accessor)) return "";
-  const tinygltf::Accessor& a = document.model.accessors[static_cast<std::size_t>(accessor)];
-  std::vector<int> views = {a.bufferView};
-  if (a.sparse.isSparse) views.insert(views.end(), {a.sparse.indices.bufferView, a.sparse.values.bufferView});
-  for (const int index : views) {
-    if (index < 0 || static_cast<std::size_t>(index) >= document.model.bufferViews.size()) continue;
-    const auto& entry = document.json["bufferViews"][static_cast<std::size_t>(index)];
-    const int buffer = document.model.bufferViews[static_cast<std::size_t>(index)].buffer;
-    const bool known = buffer >= 0 && static_cast<std::size_t>(buffer) < document.buffers.size();
-    const auto extensions = entry.find("extensions");
-    const bool meshopt =
-        extensions != entry.end() && extensions->is_object() &&
-        (extensions->contains("EXT_meshopt_compression") || extensions->contains("KHR_meshopt_compression"));
-    if (!known) continue;
-    const GltfBuffer& bytes = document.buffers[static_cast<std::size_t>(buffer)];
+std::optional<ViewRange> view_range(const Document& document, std::size_t view) {
+  if (view >= document.views.size()) return std::nullopt;
+  const BufferView& entry = document.views[view];
+  if (entry.buffer >= document.buffers.size()) return std::nullopt;
+  const Buffer& buffer = document.buffers[entry.buffer];
+  if (entry.offset > buffer.length || entry.length > buffer.length - entry.offset) return std::nullopt;
+  return ViewRange{entry.buffer, entry.offset, entry.offset + entry.length};
+}
+
+Result<Layout> layout(const Document& document, std::size_t accessor) {
+  if (accessor >= document.accessors.size()) return damaged(accessor, "it does not exist");
+  const Accessor& entry = document.accessors[accessor];
+  Layout where;
+  where.count = entry.count;
+  where.components = entry.components;
+  where.component_type = entry.component_type;
+  where.normalized = entry.normalized;
+  if (where.components == 0) return damaged(accessor, "its type is not SCALAR, VEC2, VEC3 or VEC4");
+  if (where.count > ImportLimits().vertices * most_indices_per_vertex) {
+    return damaged(accessor, "it has more than " + std::to_string(ImportLimits().vertices * most_indices_per_vertex) +
+                                 " elements");
+  }
+  if (!entry.view) return where;
+  return place_in_view(document, accessor, *entry.view, entry.offset, true, where);
+}
+
+Status check_accessor(const Document& document, std::size_t accessor) {
+  const auto where = layout(document, accessor);
+  if (!where.ok()) return where.error();
+  if (where->view) {
+    if (Status s = within_reach(document, accessor, *where); !s.ok()) return s;
+  }
+  if (!document.accessors[accessor].sparse) return success();
+  const auto sparse = sparse_layout(document, accessor, *where);
+  return sparse.ok() ? success() : sparse.error();
+}
+
+Result<std::vector<double>> read_accessor(const Document& document, std::size_t accessor) {
+  const auto where = layout(document, accessor);
+  if (!where.ok()) return where.error();
+  const std::size_t n = where->components, size = component_size(where->component_type);
+  return read_elements<double>(document, accessor, *where, n, 0.0, [&](const char* bytes, double* out) {
+    for (std::size_t c = 0; c < n; ++c) out[c] = component(bytes + c * size, where->component_type, where->normalized);
+  });
+}
+
+Result<std::vector<Vec3>> read_positions(const Document& document, std::size_t accessor) {
+  const auto where = layout(document, accessor);
+  if (!where.ok()) return where.error();
+  const std::size_t type = where->component_type, size = component_size(type);
+  if (where->components != 3) return damaged(accessor, "a POSITION is not of type VEC3");
+  if (type == type_unsigned_int) return damaged(accessor, "a POSITION is of component type " + std::to_string(type));
+  return read_elements<Vec3>(document, accessor, *where, 1, Vec3::Zero(), [&](const char* bytes, Vec3* out) {
+    for (int c = 0; c < 3; ++c) {
+      (*out)[c] = component(bytes + static_cast<std::size_t>(c) * size, type, where->normalized);
+    }
+  });
+}
+
+Result<std::vector<std::uint32_t>> read_indices(const Document& document, std::size_t accessor) {
+  const auto where = layout(document, accessor);
+  if (!where.ok()) return where.error();
+  const std::size_t type = where->component_type;
+  if (where->components != 1 || !is_index_type(type)) return damaged(accessor, "indices are not unsigned scalars");
+  return read_elements<std::uint32_t>(document, accessor, *where, 1, 0u,
+                                      [&](const char* bytes, std::uint32_t* out) { *out = load_index(bytes, type); });
+}
+
+std::string out_of_reach(const Document& document, std::size_t accessor) {
+  if (accessor >= document.accessors.size()) return "";
+  const Accessor& entry = document.accessors[accessor];
+  std::vector<std::size_t> views;
+  if (entry.view) views.push_back(*entry.view);
+  if (entry.sparse) views.insert(views.end(), {entry.sparse->index_view, entry.sparse->value_view});
+  for (const std::size_t view : views) {
+    if (view >= document.views.size() || document.views[view].buffer >= document.buffers.size()) continue;
     // A fallback buffer with bytes holds the data uncompressed.
-    if (meshopt && !bytes.missing.empty())
-      return "it is compressed with EXT_meshopt_compression, which is not read here";
-    if (!bytes.missing.empty()) return bytes.missing;
+    const std::string& missing = document.buffers[document.views[view].buffer].missing;
+    if (missing.empty()) continue;
+    return document.views[view].meshopt ? "it is compressed with EXT_meshopt_compression, which is not read here"
+                                        : missing;
   }
   return "";
 }
 
-std::size_t accessor_count(const GltfDocument& document, int accessor) {
-  return exists(document, accessor) ? document.model.accessors[static_cast<std::size_t>(accessor)].count : 0;
+std::size_t accessor_count(const Document& document, std::size_t accessor) {
+  return accessor < document.accessors.size() ? document.accessors[accessor].count : 0;
 }
 
-Result<std::vector<Vec3>> read_positions(const GltfDocument& document, int index) {
-  if (!exists(document, index)) return damaged(index, "it does not exist");
-  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
-  if (accessor.type != TINYGLTF_TYPE_VEC3) return damaged(index, "a POSITION is not of type VEC3");
-  const int type = accessor.componentType;
-  const std::size_t size = component_size(type);
-  if (size == 0 || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    return damaged(index, "a POSITION is of component type " + std::to_string(type));
-  }
-  return read_elements<Vec3>(document, index, 3 * size, Vec3::Zero(), [&](const char* bytes) {
-    return Vec3(component(bytes, type, accessor.normalized), component(bytes + size, type, accessor.normalized),
-                component(bytes + 2 * size, type, accessor.normalized));
-  });
-}
-
-Result<std::vector<std::uint32_t>> read_indices(const GltfDocument& document, int index) {
-  if (!exists(document, index)) return damaged(index, "it does not exist");
-  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
-  const int type = accessor.componentType;
-  if (accessor.type != TINYGLTF_TYPE_SCALAR || !is_index_type(type)) {
-    return damaged(index, "indices are not unsigned scalars");
-  }
-  return read_elements<std::uint32_t>(document, index, component_size(type), 0u,
-                                      [&](const char* bytes) { return load_index(bytes, type); });
-}
-
-}  // namespace parsel
+}  // namespace parsel::gltf

@@ -1,22 +1,26 @@
-// A glTF file taken apart: its JSON, checked and parsed, and the bytes of its buffers.
+// A glTF file taken apart, by the one reader that both the importer and the exporter use: what one of them accepts, the
+// other reads in the same way.
 //
-// The file comes from strangers. So the container (GLB chunks), the size and nesting of the JSON and the types that
-// tinygltf takes on trust are checked here first, and tinygltf sees only the sections that the importer reads: a broken
-// texture or animation is none of our business and cannot reach it. Buffers are views, not copies, and stay with us.
+// The file comes from strangers. So the container (GLB chunks), the size and nesting of the JSON and the types of all
+// that is read here are checked first: whatever stands in a Document has its type, though an index may still point
+// nowhere. A broken texture or animation is none of our business. Buffers are views where they can be.
 #pragma once
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/gltf/tinygltf.h"
+#include "core/gltf/container.h"
+#include "core/gltf/transform.h"
 
 namespace parsel {
 
-/// Bytes of the external buffers of a .gltf, by the URI that the file names, percent-decoded ("box 0.bin").
+/// Bytes of the external buffers (and, for an export, images) of a .gltf, by the URI that the file names,
+/// percent-decoded or as it stands ("box 0.bin", "box%200.bin").
 using ExternalBuffers = std::map<std::string, std::string, std::less<>>;
 
 /// What a file may hold at most; checked before memory is taken for it.
@@ -29,20 +33,91 @@ struct ImportLimits {
   std::size_t triangles = 8'000'000;  ///< likewise
 };
 
-struct GltfBuffer {
-  std::string_view bytes;  ///< into the file, an external buffer, or `decoded`
+namespace gltf {
+
+/// The extension that keeps a primitive compressed, beside its attributes or in their place.
+inline constexpr const char* draco = "KHR_draco_mesh_compression";
+
+struct Buffer {
+  std::string_view bytes;  ///< into the file, an external buffer, or `decoded`; exactly byteLength of them
   std::string decoded;     ///< of a data URI
+  std::size_t length = 0;  ///< byteLength, there or not
   std::string missing;     ///< why there are no bytes, a clause; empty when there are
 };
 
-struct GltfDocument {
-  nlohmann::json json;    ///< the whole of it, for what tinygltf drops (extensions)
-  tinygltf::Model model;  ///< scenes, nodes, meshes, accessors, bufferViews and material names; nothing else
-  std::vector<GltfBuffer> buffers;
+struct BufferView {
+  std::size_t buffer = 0, offset = 0, length = 0;
+  std::size_t stride = 0;  ///< 0: tightly packed
+  bool meshopt = false;    ///< compressed with EXT_meshopt_compression or its KHR successor
+  bool extended = false;   ///< has an extension of any kind
+};
+
+struct Accessor {
+  /// Elements that replace those of the accessor: indices and values, each in a buffer view without stride.
+  struct Sparse {
+    std::size_t count = 0;
+    std::size_t index_view = 0, index_offset = 0, index_type = 0;
+    std::size_t value_view = 0, value_offset = 0;
+  };
+
+  std::optional<std::size_t> view;  ///< without one the elements are zero
+  std::size_t offset = 0, count = 0;
+  std::size_t component_type = 0;  ///< as the file says, 5120 … 5126 when it is sound
+  std::size_t components = 0;      ///< 1 to 4; 0 for matrices and types that glTF does not know
+  bool normalized = false;
+  std::optional<Sparse> sparse;
+};
+
+using Attributes = std::map<std::string, std::size_t>;  ///< accessor by name
+
+struct Primitive {
+  Attributes attributes;
+  std::vector<Attributes> targets;
+  std::optional<std::size_t> indices, material;
+  std::size_t mode = 4;
+  bool has_draco = false;  ///< has the extension draco
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Primitive> primitives;
+};
+
+struct Node {
+  std::string name;
+  std::optional<std::size_t> mesh;
+  bool skinned = false;
+  bool instanced = false;  ///< EXT_mesh_gpu_instancing
+  bool visible = true;     ///< false: KHR_node_visibility hides it and all below it
+  std::vector<std::size_t> children;
+  std::vector<std::size_t> levels;  ///< MSFT_lod: nodes shown in its place from further away
+  Transform transform;
+};
+
+struct Document {
+  Container container;
+  nlohmann::json json;  ///< the whole of it, for what stands nowhere below
+  std::vector<Buffer> buffers;
+  std::vector<BufferView> views;
+  std::vector<Accessor> accessors;
+  std::vector<Mesh> meshes;
+  std::vector<Node> nodes;
+  std::size_t scene = 0;                          ///< the default scene, or the first
+  std::optional<std::vector<std::size_t>> roots;  ///< of that scene; none when the file has no scenes
 };
 
 /// `bytes` and `external` must outlive the document. Error place is a section of the file ("GLB header", "buffer 0").
-Result<GltfDocument> read_gltf_document(std::string_view bytes, const ExternalBuffers& external,
-                                        const ImportLimits& limits);
+Result<Document> read_document(std::string_view bytes, const ExternalBuffers& external,
+                               const ImportLimits& limits = {});
 
+/// The file that a URI names among those given: as it stands or percent-decoded; null when it is not there.
+const std::string* find_external(const ExternalBuffers& external, const std::string& uri);
+
+/// The URIs of the buffers that lie outside of the file, percent-decoded; empty for a damaged file.
+std::vector<std::string> external_uris(std::string_view bytes);
+
+/// Whether a URI holds its bytes itself.
+bool is_data_uri(std::string_view uri);
+
+}  // namespace gltf
 }  // namespace parsel

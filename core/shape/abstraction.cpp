@@ -234,6 +234,10 @@ Status relabel(PartData<PartMesh>& meshes, const Labels& labels) {
 
 }  // namespace
 
+std::vector<std::string> external_buffer_uris(std::string_view bytes) {
+  return gltf::external_uris(bytes);
+}
+
 Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name, const ExternalBuffers& buffers,
                                    const Labels& labels) {
   Result<ImportedModel> imported = import_gltf(bytes, buffers);

@@ -177,9 +177,9 @@ inline ordered_json json_of(const std::string& glb) {
 }
 
 inline std::vector<Vec3> vectors(const gltf::File& file, std::size_t accessor) {
-  const auto values = gltf::read_accessor(file, accessor);
+  const auto values = gltf::read_accessor(file.original, accessor);
   PARSEL_ASSERT(values.ok(), values.error().message().c_str());
-  const auto where = gltf::layout(file, accessor);
+  const auto where = gltf::layout(file.original, accessor);
   std::vector<Vec3> out;
   for (std::size_t i = 0; i + 2 < values->size(); i += where->components) {
     out.emplace_back((*values)[i], (*values)[i + 1], (*values)[i + 2]);
@@ -199,7 +199,7 @@ inline std::vector<Vec3> attribute(const std::string& glb, std::size_t node, con
 /// POSITION, in model coordinates.
 inline std::vector<Vec3> world_positions(const std::string& glb, std::size_t node, std::size_t primitive = 0) {
   const gltf::File file = read(glb);
-  const auto scene = gltf::read_scene(file);
+  const auto scene = gltf::read_scene(file.original);
   PARSEL_ASSERT(scene.ok(), "the scene cannot be read");
   std::vector<Vec3> out = attribute(glb, node, "POSITION", primitive);
   for (Vec3& p : out) p = scene->world[node] * p;

@@ -85,7 +85,7 @@ void check_affine(const OneBox& model, const Eigen::Affine3d& edit) {
   CHECK(json_of(glb)["bufferViews"] == model.glb.json["bufferViews"]);
   CHECK(json_of(glb)["meshes"] == model.glb.json["meshes"]);
   const gltf::File file = read(glb);
-  const auto values = gltf::read_accessor(file, 2);
+  const auto values = gltf::read_accessor(file.original, 2);
   const double handedness = edit.linear().determinant() < 0 ? 1 : -1;
   for (std::size_t i = 3; i < values->size(); i += 4) CHECK((*values)[i] == handedness);
 }

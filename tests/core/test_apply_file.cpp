@@ -97,8 +97,7 @@ TEST_CASE("apply: hierarchies that are none are refused") {
     glb.json["nodes"][0]["children"] = {0};
   }
   SUBCASE("two parents") {
-    glb.json["nodes"].push_back({{"children", {0}}});
-    glb.json["nodes"].push_back({{"children", {0}}});
+    glb.node({{"children", {0}}});
   }
   SUBCASE("a child that is not there") {
     glb.json["nodes"][0]["children"] = {77};
@@ -116,7 +115,7 @@ TEST_CASE("apply: states that are not of the shape are refused") {
   const Everything model;
   const std::string file = model.glb.bytes();
   State state = model.state;
-  state.parts = PartData<Corners>(1);
+  state.parts = PartData<Corners>(1, Corners::Zero());
   CHECK_FALSE(apply_state(file, model.shape, state).ok());
   state = model.state;
   state.parts[PartIndex(0)](2, 2) = std::nan("");

@@ -27,7 +27,7 @@ class Player {
 
   /// World positions of all vertices of the node's primitives at a time. The node's ancestors stand still.
   std::vector<Vec3> positions(std::size_t node, double time) const {
-    gltf::Placement at = gltf::placement(file_.item("nodes", node));
+    gltf::Placement at = gltf::transform_of(file_.item("nodes", node)).placement;
     std::vector<double> weights;
     for (const auto& channel : json_["animations"][0]["channels"]) {
       if (channel["target"]["node"] != node) continue;
@@ -39,7 +39,7 @@ class Player {
       if (path == "rotation") at.rotation = Eigen::Quaterniond(value[3], value[0], value[1], value[2]);
       if (path == "weights") weights = value;
     }
-    const auto scene = gltf::read_scene(file_);
+    const auto scene = gltf::read_scene(file_.original);
     const bool fixed = file_.item("nodes", node).has("matrix");
     const Eigen::Affine3d world = fixed ? scene->world[node] : scene->parent_world(node) * at.matrix();
     std::vector<Vec3> out;
@@ -56,7 +56,7 @@ class Player {
   }
 
  private:
-  std::vector<double> numbers(std::size_t accessor) const { return *gltf::read_accessor(file_, accessor); }
+  std::vector<double> numbers(std::size_t accessor) const { return *gltf::read_accessor(file_.original, accessor); }
 
   std::vector<double> sample(const ordered_json& sampler, double time, bool rotation) const {
     const std::vector<double> times = numbers(sampler["input"]), values = numbers(sampler["output"]);

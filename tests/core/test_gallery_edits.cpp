@@ -93,7 +93,7 @@ TEST_CASE("gallery: the truth of every edit keeps the attachments") {
       for (const double x : {-0.35, 0.35}) {
         const GalleryAsset edited = build(model, edit.values(x)).value();
         if (edited.parts.size() != rest.parts.size()) continue;  // a changed count has other parts
-        PartData<Corners> corners(shape.parts.size());
+        PartData<Corners> corners(shape.parts.size(), Corners::Zero());
         for (const PartIndex p : shape.parts.indices()) {
           const Part& part = shape.parts[p];
           if (part.is_virtual()) {

@@ -163,6 +163,37 @@ TEST_CASE("what is sound but not read is named in a warning") {
   CHECK_FALSE(contains(all, "unlit"));
 }
 
+TEST_CASE("hidden nodes, and all below them, are no parts and are named") {
+  fixture::Document d = fixture::document(fixture::table());
+  const std::size_t parts = import_gltf(d.glb())->meshes.size();
+  d.json["nodes"][1]["extensions"]["KHR_node_visibility"]["visible"] = false;
+  d.json["nodes"][1]["children"] = {2};
+  json& roots = d.json["scenes"][0]["nodes"];
+  roots.erase(std::find(roots.begin(), roots.end(), json(2)));
+  d.json["extensionsRequired"] = {"KHR_node_visibility"};
+  const auto model = import_gltf(d.glb());
+  REQUIRE(model.ok());
+  CHECK(model->meshes.size() == parts - 2);
+  REQUIRE(model->warnings.size() == 1);
+  CHECK(model->warnings[0].place == "node 1");
+  CHECK(contains(model->warnings[0].text, "it and what is below it are hidden"));
+}
+
+TEST_CASE("one part, and a place far from the origin, are warned of") {
+  const auto one = import_gltf(fixture::model({{"a", fixture::box({0, 0, 0}, {1, 1, 1})}}));
+  REQUIRE(one.ok());
+  REQUIRE(one->warnings.size() == 1);
+  CHECK(contains(one->warnings[0].text, "one part"));
+
+  fixture::Document d = fixture::document(fixture::table());
+  CHECK(import_gltf(d.glb())->warnings.empty());
+  for (json& node : d.json["nodes"]) node["translation"] = {1e6, 0, 0};
+  const auto far = import_gltf(d.glb());
+  REQUIRE(far.ok());
+  REQUIRE(far->warnings.size() == 1);
+  CHECK(contains(far->warnings[0].text, "from its origin"));
+}
+
 TEST_CASE("damage is refused by name") {
   CHECK(refusal([](auto&) {}) == "");
   const auto views = [](auto& d) -> json& { return d.json["bufferViews"]; };
