@@ -29,8 +29,14 @@ std::string pointer(const std::string& parent, const std::string& key) {
   return parent + "/" + pointer_token(key);
 }
 
-/// The statements are those of a program's layer: its reader checks them.
-Result<std::vector<Statement>> read_seed(const json& seed) {
+/// The statements are those of a program's layer: its reader checks them. But a count that says no anchor keeps the room
+/// of its row: fewer bars are no narrower chair, unless that is asked for.
+Result<std::vector<Statement>> read_seed(json seed) {
+  for (json& statement : seed) {
+    if (statement.is_object() && statement.value("op", json()) == "change_count" && !statement.contains("anchor")) {
+      statement["anchor"] = to_string(Anchor::fit);
+    }
+  }
   const json program = {{"format", "parsel/program"},
                         {"version", 1},
                         {"shape", {{"name", ""}, {"sha256", ""}}},

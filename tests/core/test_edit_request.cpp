@@ -47,3 +47,12 @@ TEST_CASE("a seed edit moves nothing at x = 0") {
   for (const char* amount : {"8*x", "8*x + 0.5", "floor(x/0.05)"}) CHECK(counting(amount) == "");
   for (const char* amount : {"8*x + 1", "8*x - 0.5"}) CHECK(counting(amount).starts_with("is not 0 at x = 0"));
 }
+
+TEST_CASE("a count keeps the room of its row unless an anchor says otherwise") {
+  const auto anchor = [](const nlohmann::json& statement) {
+    return edit_request_from_json({{"seed", {statement}}})->seed[0].anchor;
+  };
+  CHECK(anchor({{"op", "change_count"}, {"relation", "t1"}, {"amount", "-8*x"}}) == Anchor::fit);
+  CHECK(anchor({{"op", "change_count"}, {"relation", "t1"}, {"amount", "-8*x"}, {"anchor", "end"}}) == Anchor::end);
+  CHECK(anchor({{"op", "change_delta"}, {"relation", "t1"}, {"amount", "x"}}) == Anchor::middle);
+}
