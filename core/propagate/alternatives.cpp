@@ -208,10 +208,18 @@ class Alternatives : public Attempt {
       best = std::move(found);
       cost = price;
     };
-    Restriction body = free;
-    const std::set<PartIndex> stays = parts_beyond_seeds();
-    body.held.insert(stays.begin(), stays.end());
-    if (body.held.size() > free.held.size()) consider(body);
+    std::set<PartIndex> nearest;
+    for (const PartIndex part : graph_.parts()) {
+      if (is_seed(part)) nearest.insert(part);
+    }
+    for (int reach = 0; reach < 2; ++reach) {
+      Restriction body = free;
+      const std::set<PartIndex> stays = body_beyond(nearest);
+      body.held.insert(stays.begin(), stays.end());
+      if (body.held.size() > free.held.size()) consider(body);
+      const std::set<PartIndex> around = neighbours_of(nearest);
+      nearest.insert(around.begin(), around.end());
+    }
     Restriction standing_parts = free;
     for (const PartIndex part : standing()) {
       if (!is_seed(part)) standing_parts.held.insert(part);
@@ -258,15 +266,26 @@ class Alternatives : public Attempt {
     return true;
   }
 
-  /// The neighbours of the seeds that belong to the body of the model: what is left of the graph of joints without the
-  /// seeds falls into pieces; a piece stays when it stands on the floor, or when it is the largest.
-  std::set<PartIndex> parts_beyond_seeds() const {
+  std::set<PartIndex> neighbours_of(const std::set<PartIndex>& parts) const {
+    std::set<PartIndex> neighbours;
+    for (const PartIndex part : parts) {
+      for (const RelationIndex r : graph_.relations(part)) {
+        const PartIndex other = graph_.other(r, part);
+        if (shape_.relations[r].is_attachment() && parts.count(other) == 0) neighbours.insert(other);
+      }
+    }
+    return neighbours;
+  }
+
+  /// The neighbours of some parts that belong to the body of the model: what is left of the graph of joints without
+  /// those parts falls into pieces; a piece stays when it stands on the floor, or when it is the largest.
+  std::set<PartIndex> body_beyond(const std::set<PartIndex>& nearest) const {
     const std::vector<PartIndex> feet = standing();
     PartData<int> piece(shape_.parts.size(), -1);
     std::vector<double> size;
     std::vector<bool> stands;
     for (const PartIndex start : graph_.parts()) {
-      if (is_seed(start) || piece[start] >= 0) continue;
+      if (nearest.count(start) > 0 || piece[start] >= 0) continue;
       const int number = static_cast<int>(size.size());
       size.push_back(0);
       stands.push_back(false);
@@ -278,25 +297,19 @@ class Alternatives : public Attempt {
         const Corners& corners = shape_.parts[part].hexahedron.corners;
         size.back() += (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).norm();
         stands.back() = stands.back() || std::find(feet.begin(), feet.end(), part) != feet.end();
-        for (const RelationIndex r : graph_.relations(part)) {
-          const PartIndex other = graph_.other(r, part);
-          if (!shape_.relations[r].is_attachment() || is_seed(other) || piece[other] >= 0) continue;
+        for (const PartIndex other : neighbours_of({part})) {
+          if (nearest.count(other) > 0 || piece[other] >= 0) continue;
           piece[other] = number;
           open.push_back(other);
         }
       }
     }
-    std::set<PartIndex> stays;
-    if (size.empty()) return stays;
+    if (size.empty()) return {};
     const auto largest = std::max_element(size.begin(), size.end()) - size.begin();
-    for (const PartIndex part : graph_.parts()) {
-      if (!is_seed(part)) continue;
-      for (const RelationIndex r : graph_.relations(part)) {
-        const PartIndex other = graph_.other(r, part);
-        if (is_seed(other) || !shape_.relations[r].is_attachment()) continue;
-        const int number = piece[other];
-        if (number == largest || stands[static_cast<std::size_t>(number)]) stays.insert(other);
-      }
+    std::set<PartIndex> stays;
+    for (const PartIndex part : neighbours_of(nearest)) {
+      const int number = piece[part];
+      if (number == largest || stands[static_cast<std::size_t>(number)]) stays.insert(part);
     }
     return stays;
   }
