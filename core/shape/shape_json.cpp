@@ -2,8 +2,9 @@
 //
 // Relations: {"id","kind","parts":[ids], …} with, for reflection, "origin", "normal", "corner_map"; translation,
 // "parent", "start", "end", "count", "delta", "axis", "direction"; rotation, "parent", "centre", "axis", "parent_axis",
-// "radius", "count", "angle", "arc"; attachments, "points", "local_a", "local_b". A part may have "group": the id of
-// its relation. "count", "delta", "angle" and "arc" follow from the rest and are not read back.
+// "radius", "count", "angle", "arc"; attachments, "points", "local_a", "local_b"; ground, "points", "local".
+// Attachments may have "patch": {"centre", "normal", "half_sides", "local_a", "local_b"}. A part may have "group": the
+// id of its relation. "count", "delta", "angle" and "arc" follow from the rest and are not read back.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -78,6 +79,21 @@ std::vector<Vec3> points(const json& object, const char* name, const std::string
   return out;
 }
 
+template <std::size_t count>
+std::array<Vec3, count> points_of(const json& object, const char* name, const std::string& place) {
+  const std::vector<Vec3> read = points(object, name, place);
+  if (read.size() != count) throw Malformed{place, std::string("'") + name + "' has another number of points"};
+  std::array<Vec3, count> out;
+  std::copy(read.begin(), read.end(), out.begin());
+  return out;
+}
+
+ContactPatch patch(const json& entry, const std::string& place) {
+  return {vector(member(entry, "centre", place), place), vector(member(entry, "normal", place), place),
+          points_of<2>(entry, "half_sides", place), points_of<4>(entry, "local_a", place),
+          points_of<4>(entry, "local_b", place)};
+}
+
 json part_json(const Shape& shape, const Part& part) {
   json corners = json::array(), axes = json::array(), members = json::array();
   for (int k = 0; k < 8; ++k) corners.push_back(vector_json(part.hexahedron.corners.row(k).transpose()));
@@ -88,6 +104,19 @@ json part_json(const Shape& shape, const Part& part) {
               {"axes", axes},      {"virtual", part.is_virtual()}, {"members", members}};
   if (part.group) out["group"] = shape.relations[*part.group].id;
   return out;
+}
+
+template <std::size_t count>
+json points_json(const std::array<Vec3, count>& points) {
+  return points_json(std::vector<Vec3>(points.begin(), points.end()));
+}
+
+json patch_json(const ContactPatch& patch) {
+  return {{"centre", vector_json(patch.centre)},
+          {"normal", vector_json(patch.normal)},
+          {"half_sides", points_json(patch.half_sides)},
+          {"local_a", points_json(patch.local_a)},
+          {"local_b", points_json(patch.local_b)}};
 }
 
 json relation_json(const Shape& shape, const Relation& relation) {
@@ -120,6 +149,10 @@ json relation_json(const Shape& shape, const Relation& relation) {
     out["points"] = points_json(a->points);
     out["local_a"] = points_json(a->local_a);
     out["local_b"] = points_json(a->local_b);
+    if (a->patch) out["patch"] = patch_json(*a->patch);
+  } else if (const auto* g = std::get_if<Ground>(&relation.detail)) {
+    out["points"] = points_json(g->points);
+    out["local"] = points_json(g->local);
   }
   return out;
 }
@@ -199,9 +232,12 @@ class Reader {
           Rotation{part(member(entry, "parent", place), place), vector(member(entry, "centre", place), place),
                    vector(member(entry, "axis", place), place), integer(entry, "parent_axis", place),
                    number(member(entry, "radius", place), place)};
+    } else if (*kind == RelationKind::ground) {
+      relation.detail = Ground{points(entry, "points", place), points(entry, "local", place)};
     } else {
-      relation.detail =
-          Attachment{points(entry, "points", place), points(entry, "local_a", place), points(entry, "local_b", place)};
+      Attachment a{points(entry, "points", place), points(entry, "local_a", place), points(entry, "local_b", place)};
+      if (entry.contains("patch")) a.patch = patch(entry["patch"], place + "/patch");
+      relation.detail = std::move(a);
     }
     relation_by_id_.emplace(relation.id, RelationIndex(shape_.relations.size()));
     shape_.relations.push_back(std::move(relation));

@@ -116,7 +116,7 @@ TEST_CASE("apply: states that are not of the shape are refused") {
   const Everything model;
   const std::string file = model.glb.bytes();
   State state = model.state;
-  state.parts = PartData<Corners>(1);
+  state.parts = PartData<Corners>(1, Corners::Zero());
   CHECK_FALSE(apply_state(file, model.shape, state).ok());
   state = model.state;
   state.parts[PartIndex(0)](2, 2) = std::nan("");

@@ -89,9 +89,25 @@ export interface AttachmentRelation extends RelationBase {
   /** The same points in local coordinates of the first and of the second part. */
   readonly local_a: readonly Vec3[];
   readonly local_b: readonly Vec3[];
+  /** Where the parts touch: a rectangle by its centre, its normal out of the first part, and half its sides. */
+  readonly patch?: {
+    readonly centre: Vec3;
+    readonly normal: Vec3;
+    readonly half_sides: readonly [Vec3, Vec3];
+    /** Its corners in local coordinates of each part. */
+    readonly local_a: readonly Vec3[];
+    readonly local_b: readonly Vec3[];
+  };
+}
+/** Its one part stands on the floor: these points keep their height. */
+export interface GroundRelation extends RelationBase {
+  readonly kind: 'ground';
+  readonly points: readonly Vec3[];
+  /** The same points in local coordinates of the part. */
+  readonly local: readonly Vec3[];
 }
 export type GroupRelation = TranslationRelation | RotationRelation;
-export type ShapeRelation = ReflectionRelation | GroupRelation | AttachmentRelation;
+export type ShapeRelation = ReflectionRelation | GroupRelation | AttachmentRelation | GroundRelation;
 
 export interface Shape {
   readonly format: 'parsel/shape';
