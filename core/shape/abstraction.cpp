@@ -10,6 +10,7 @@
 #include "core/shape/alike.h"
 #include "core/shape/attachment.h"
 #include "core/shape/contacts.h"
+#include "core/shape/frame.h"
 #include "core/shape/gltf_import.h"
 #include "core/shape/ground.h"
 #include "core/shape/group.h"
@@ -19,6 +20,15 @@
 
 namespace parsel {
 namespace {
+
+/// +y of the normalised frame.
+constexpr int up_axis = 1;
+
+/// Whether a box touches the same box moved by `delta`: no axis parts them by more than a joint may gape.
+bool touch_each_other(const Hexahedron& box, const Vec3& delta) {
+  const Vec3 apart = (box.axes * delta).cwiseAbs() - 2 * box.half_extents();
+  return apart.maxCoeff() <= contact_distance;
+}
 
 /// Builds the graph from meshes, aligned boxes and symmetries.
 class Builder {
@@ -59,13 +69,15 @@ class Builder {
     }
     align_parents();
 
-    std::vector<std::string> labels;
+    std::vector<std::string> labels, given;
     std::vector<Vec3> centres;
+    for (const PartMesh& mesh : meshes_) given.push_back(mesh.name);
+    given.resize(shape_.parts.size());
     for (const Part& part : shape_.parts) {
       labels.push_back(part.label);
       centres.push_back(part.hexahedron.point(Vec3::Zero()));
     }
-    const std::vector<PartName> names = name_parts(labels, centres);
+    const std::vector<PartName> names = name_parts(labels, centres, given);
     for (const PartIndex p : shape_.parts.indices()) {
       shape_.parts[p].id = names[p.value()].id;
       shape_.parts[p].name = names[p.value()].name;
@@ -105,6 +117,7 @@ class Builder {
       Reflection reflection;
       reflection.normal = Vec3::Unit(m.axis);
       reflection.origin = m.offset * reflection.normal;
+      reflection.stacked = m.axis == up_axis;
       // Boxes tied along several ways (four legs: two planes) agree up to rounding; what does not agree is no relation.
       const Corners& to = shape_.parts[m.b].hexahedron.corners;
       const Corners image = mirrored(shape_.parts[m.a].hexahedron, m.axis, m.offset).corners;
@@ -126,6 +139,7 @@ class Builder {
         const Vec3 along = box.axes * (t.end - t.start);
         along.cwiseAbs().maxCoeff(&t.axis);
         t.direction = along[t.axis] > 0 ? 1 : -1;
+        t.touching = touch_each_other(shape_.parts[group.parts[0]].hexahedron, group.delta);
         relation = add('t', RelationKind::translation, group.parts, t);
       } else {
         Rotation r{parent, group.centre, group.axis, 0, 0};
@@ -221,7 +235,8 @@ Status relabel(PartData<PartMesh>& meshes, const Labels& labels) {
     for (const std::string& key : {node, node + "/" + std::to_string(mesh.primitive)}) {
       const auto found = labels.find(key);
       if (found == labels.end()) continue;
-      mesh.label = clean_label(found->second);
+      mesh.name = found->second;
+      mesh.label = clean_label(mesh.name);
       unused.erase(key);
     }
   }
@@ -243,6 +258,8 @@ Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name
   result.shape.warnings = std::move(imported->warnings);
   result.meshes = std::move(imported->meshes);
   if (Status status = relabel(result.meshes, labels); !status.ok()) return status.error();
+
+  turn_into(own_axes(result.meshes), result.meshes, result.shape.frame);
 
   PartData<Hexahedron> boxes;
   PartData<std::string> keys;

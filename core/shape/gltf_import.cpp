@@ -191,21 +191,21 @@ class Importer {
     return success();
   }
 
-  std::string label_of(int node_index, const tinygltf::Node& node, const tinygltf::Mesh& mesh, int material) const {
+  std::string name_of(int node_index, const tinygltf::Node& node, const tinygltf::Mesh& mesh, int material) const {
     const json& raw = document_.json["nodes"][static_cast<std::size_t>(node_index)];
     if (const auto extras = raw.find("extras"); extras != raw.end() && extras->is_object()) {
       const auto label = extras->find("label");
       if (label != extras->end() && label->is_string() && !label->get_ref<const std::string&>().empty()) {
-        return clean_label(label->get_ref<const std::string&>());
+        return label->get_ref<const std::string&>();
       }
     }
-    if (!node.name.empty()) return clean_label(node.name);
-    if (!mesh.name.empty()) return clean_label(mesh.name);
+    if (!node.name.empty()) return node.name;
+    if (!mesh.name.empty()) return mesh.name;
     const auto& materials = document_.model.materials;
     if (material >= 0 && static_cast<std::size_t>(material) < materials.size()) {
-      return clean_label(materials[static_cast<std::size_t>(material)].name);
+      return materials[static_cast<std::size_t>(material)].name;
     }
-    return clean_label("");
+    return "";
   }
 
   Status read_primitive(const PlacedNode& placed, const tinygltf::Node& node, const tinygltf::Mesh& mesh, int index) {
@@ -263,7 +263,8 @@ class Importer {
     }
 
     PartMesh part;
-    part.label = label_of(placed.node, node, mesh, primitive.material);
+    part.name = name_of(placed.node, node, mesh, primitive.material);
+    part.label = clean_label(part.name);
     part.node = placed.node;
     part.primitive = index;
     part.world = placed.world;

@@ -37,9 +37,11 @@ enum class RelationKind { reflection, translation, rotation, point, line, face, 
 /// parts = {a, b}, mirror images of each other about the plane.
 struct Reflection {
   Vec3 origin = Vec3::Zero();   ///< a point of the plane
-  Vec3 normal = Vec3::UnitX();  ///< unit, a global axis
+  Vec3 normal = Vec3::UnitX();  ///< unit, an axis of the normalised frame
   /// Corner k of part b is the mirror image of corner corner_map[k] of part a.
   std::array<int, 8> corner_map = {0, 1, 2, 3, 4, 5, 6, 7};
+  /// One above the other: alike in shape, but the floor tells them apart, so a change of height need not mirror.
+  bool stacked = false;
 };
 
 /// parts = the instances in order, at equal distances. Over-parameterised (supplement §3.2): start, middle (their
@@ -50,6 +52,7 @@ struct Translation {
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();  ///< centres of the first and the last instance
   int axis = 0;                                   ///< local axis of the parent that delta is most along
   int direction = 1;                              ///< 1 when delta points along +axis, else -1
+  bool touching = false;                          ///< each instance touches the next: what widens one moves the others
 };
 
 /// parts = the instances in order of angle, a closed loop: instance k is instance 0 turned by k · 2π/count about the

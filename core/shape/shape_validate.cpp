@@ -25,6 +25,11 @@ class Validator {
     if (!shape_.frame.centre.allFinite() || !(shape_.frame.scale > 0) || !std::isfinite(shape_.frame.scale)) {
       return wrong("frame", "it is not finite and positive");
     }
+    const Mat3& axes = shape_.frame.axes;
+    if (!((axes * axes.transpose() - Mat3::Identity()).cwiseAbs().maxCoeff() <= symmetry_slack) ||
+        !(axes.determinant() > 0)) {
+      return wrong("frame", "its axes are not unit, perpendicular and right-handed");
+    }
     std::set<std::string> ids;
     for (const PartIndex p : shape_.parts.indices()) {
       if (shape_.parts[p].id.empty() || !ids.insert(shape_.parts[p].id).second) {

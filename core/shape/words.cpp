@@ -24,7 +24,7 @@ Vec3 centre(const Part& part) {
   return part.hexahedron.point(Vec3::Zero());
 }
 
-/// Whether an id's words are those of the name, in any order: then the name adds nothing.
+/// Whether an id's words are those of the name, in any order and case: then the name adds nothing.
 bool says_the_same(const std::string& id, const std::string& name) {
   const auto words = [](const std::string& text) {
     std::vector<std::string> out(1);
@@ -32,7 +32,7 @@ bool says_the_same(const std::string& id, const std::string& name) {
       if (c == '_' || c == ' ' || c == '-') {
         out.emplace_back();
       } else {
-        out.back() += c;
+        out.back() += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
       }
     }
     std::sort(out.begin(), out.end());

@@ -63,6 +63,8 @@ export interface ReflectionRelation extends RelationBase {
   readonly normal: Vec3;
   /** Corner k of the second part is the mirror image of corner corner_map[k] of the first. */
   readonly corner_map: readonly number[];
+  /** One above the other: a change of height need not mirror. */
+  readonly stacked?: true;
 }
 /** Instances at equal distances; start and end are the centres of the first and the last. */
 export interface TranslationRelation extends RelationBase {
@@ -73,6 +75,8 @@ export interface TranslationRelation extends RelationBase {
   /** Local axis of the parent that the instances follow, and whether they run along + or - of it. */
   readonly axis: Axis;
   readonly direction: -1 | 1;
+  /** Each instance touches the next. */
+  readonly touching?: true;
 }
 /** A closed ring of instances: number k is number 0 turned by k · 2π/count. */
 export interface RotationRelation extends RelationBase {
@@ -115,7 +119,8 @@ export interface Shape {
   readonly name: string;
   /** Of the model file's bytes, lower-case hex. */
   readonly sha256: string;
-  readonly frame: { readonly centre: Vec3; readonly scale: number };
+  /** `axes`: the normalised axes as rows in the file's coordinates, where the model does not stand along the file's. */
+  readonly frame: { readonly centre: Vec3; readonly scale: number; readonly axes?: readonly [Vec3, Vec3, Vec3] };
   readonly parts: readonly ShapePart[];
   readonly relations: readonly ShapeRelation[];
   readonly warnings: readonly { readonly place: string; readonly text: string }[];
