@@ -105,17 +105,23 @@ TEST_CASE("every gallery model stands along the file's axes") {
 TEST_CASE("relations do not change with a model's place, size, turn and order") {
   const Eigen::Affine3d turned = yaw(30), far_turned = yaw(137);
   const Eigen::Affine3d larger(Eigen::Scaling(1000.0)), away(Eigen::Translation3d(1e4, 0, -1e4));
+  int with_direction = 0;
   for (const GalleryModel& model : gallery_models()) {
     CAPTURE(model.id);
     const std::string glb = build(model)->glb;
     const Shape upright = fixture::abstraction(glb, model.id).shape;
+    // What is round all about has no direction to be turned back to, and the boxes of a ring follow its first instance.
+    const bool is_round = fixture::abstraction(placed(glb, turned, 0), model.id).shape.frame.axes == Mat3::Identity() ||
+                          fixture::count(upright, RelationKind::rotation) > 0;
+    with_direction += is_round ? 0 : 1;
     for (const Eigen::Affine3d& where : {turned, far_turned, larger, away, away * far_turned * larger}) {
       CAPTURE(where.matrix());
       const Shape shape = fixture::abstraction(placed(glb, where, 7), model.id).shape;
       CHECK(by_nodes(shape) == by_nodes(upright));
-      CHECK(furthest_corner(boxes(upright), where, boxes(shape)) < 1e-3 * shape.frame.scale);
+      if (!is_round) CHECK(furthest_corner(boxes(upright), where, boxes(shape)) < 1e-3 * shape.frame.scale);
     }
   }
+  CHECK(with_direction >= 10);
 }
 
 TEST_CASE("a model that lies on a side, or its mirror image, has the same relations but for the floor's") {
