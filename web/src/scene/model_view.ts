@@ -48,6 +48,7 @@ export class ModelView {
     const patched = new Set<three.Material>();
     const toShape = new three.Matrix4()
       .makeScale(1 / shape.frame.scale, 1 / shape.frame.scale, 1 / shape.frame.scale)
+      .multiply(turnedOnto(shape.frame.axes))
       .multiply(new three.Matrix4().makeTranslation(new three.Vector3(...shape.frame.centre).negate()));
 
     for (const loadedMesh of loaded.meshes) {
@@ -169,6 +170,14 @@ export class ModelView {
       this.cage.setTint(this.cage.rowOfInstance(group.relation, i), ...(this.#tints[member] ?? noTint));
     }
   }
+}
+
+/** From the file's axes to the model's own. */
+function turnedOnto(axes: Shape['frame']['axes']): three.Matrix4 {
+  const turn = new three.Matrix4();
+  if (axes === undefined) return turn;
+  const [x, y, z] = axes;
+  return turn.set(...x, 0, ...y, 0, ...z, 0, 0, 0, 0, 1);
 }
 
 /**

@@ -34,7 +34,7 @@ export class Overlays {
   readonly #planes: three.Mesh[] = [];
   readonly #planeMaterial: three.MeshBasicMaterial;
   #highlight: Highlight = { part: -1, feature: [0, 0, 0], relations: [] };
-  /** Of each attachment: its points in local coordinates of its first part. */
+  /** Of each attachment, and of what stands on the floor: its points in local coordinates of its first part. */
   readonly #attachments = new Map<number, { part: number; local: Vec3[] }>();
 
   constructor(private readonly shape: Shape) {
