@@ -93,8 +93,14 @@ class Parser {
     goes_ = false;
     if (middle_) unused(*middle_);
     middle_.reset();
+    if (adjective_ && adjective_->word.sign < 0) {
+      unused(*adjective_);
+      fault("it does not say how " + tokens_[adjective_->first].said);
+      adjective_.reset();
+    }
     if (adjective_) {
-      if (!c.how_much && !factor_) {
+      const bool sized = c.change == Change::size && c.compares;
+      if (!sized && !c.how_much && !factor_) {
         unused(*adjective_);
         fault("it does not say how " + tokens_[adjective_->first].said);
       }
@@ -261,6 +267,12 @@ class Parser {
         now().same_size = now().same_size || word.kind == WordKind::same_size;
         if (!now().keeps) unused(item);
         break;
+      case WordKind::too:
+        if (next_is(WordKind::adjective) || next_is(WordKind::change)) {
+          ++at_;
+          change(items_[at_].word.change, -items_[at_].word.sign, items_[at_]);
+        }
+        break;
       case WordKind::conjunction:
       case WordKind::but:
       case WordKind::with:
@@ -298,7 +310,7 @@ class Parser {
     const int sign = item.word.kind == WordKind::more ? 1 : -1;
     if (next_is(WordKind::adjective)) {
       ++at_;
-      change(items_[at_].word.change, sign, items_[at_]);
+      change(items_[at_].word.change, sign * items_[at_].word.sign, items_[at_]);
     } else {
       change(Change::count, sign, item);
     }

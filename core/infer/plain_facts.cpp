@@ -115,6 +115,14 @@ bool ShapeFacts::is_round(PartIndex part) const {
                                            [&](PartIndex p) { return is_square(p) && same_axis(extent(p).centre()); });
 }
 
+bool ShapeFacts::may_be_ring(PartIndex part) const {
+  const auto thin = thin_axis(part);
+  return thin && *thin != 1 && std::any_of(relations_.begin(), relations_.end(), [&](RelationIndex r) {
+           const auto* ring = std::get_if<Rotation>(&shape_.relations[r].detail);
+           return ring != nullptr && main_axis_of(ring->axis) == *thin;
+         });
+}
+
 bool ShapeFacts::stands(PartIndex part) const {
   const Extent own = extent(part);
   const double height = own.size()[1];

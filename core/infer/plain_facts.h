@@ -37,6 +37,9 @@ class ShapeFacts {
   /// Whether it was turned on a lathe, upright, as far as boxes and rings can tell.
   bool is_round(PartIndex part) const;
 
+  /// A plate across the axis of an upright ring of parts: it may be a ring itself, whose thickness a box does not tell.
+  bool may_be_ring(PartIndex part) const;
+
   /// Its lower end rests on the floor or on another part.
   bool stands(PartIndex part) const;
   /// It does not stand, and its upper end is joined to what is above it.

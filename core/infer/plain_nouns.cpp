@@ -2,18 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/infer/plain_seed.h"
+#include "core/infer/plain_part.h"
 
 namespace parsel {
 
 namespace {
 
 constexpr double beside = 0.02;  ///< and more is on a side, in half-diagonals
-
-std::string named(const Shape& shape, PartIndex part) {
-  const Part& named = shape.parts[part];
-  return named.name.empty() ? named.id : named.name;
-}
 
 /// Instances of a group by place along an axis, the foremost to that side first.
 std::vector<PartIndex> along(const ShapeFacts& facts, const std::vector<PartIndex>& members, const Side& side) {
@@ -88,7 +83,7 @@ std::string keep(const ShapeFacts& facts, const Clause& clause, PlainEdit& edit)
       return std::count(set.begin(), set.end(), p) > 0 &&
              std::any_of(set.begin(), set.end(), [&](PartIndex q) { return changed.count(q) > 0; });
     });
-    if (in_seed) return named(shape, p) + " cannot both change and stay";
+    if (in_seed) return name_of(shape, p) + " cannot both change and stay";
     const bool carried = facts.extent(p).centre()[1] > lifted_above;
     edit.hints[shape.parts[p].id] = clause.same_size || carried ? Hint::translate : Hint::keep_fixed;
   }

@@ -61,7 +61,8 @@ void share(std::vector<Clause*>& clauses) {
   }
   for (std::size_t i = 1; i < clauses.size(); ++i) {
     Clause& c = *clauses[i];
-    if (c.change != Change::none && c.nouns.empty() && !c.whole && c.change != Change::count) {
+    const bool it = c.whole && !c.names_whole && !clauses[i - 1]->nouns.empty();
+    if (c.change != Change::none && c.nouns.empty() && (!c.whole || it) && c.change != Change::count) {
       c.nouns = clauses[i - 1]->nouns;
       c.whole = clauses[i - 1]->whole;
       c.names_whole = clauses[i - 1]->names_whole;
@@ -161,7 +162,10 @@ Way take(const ShapeFacts& facts, const std::vector<Token>& tokens, const std::v
           const bool again = std::any_of(sum.statements.begin(), sum.statements.end(), [&](const Statement& other) {
             return acts_on(facts.shape(), other) == acts_on(facts.shape(), statement);
           });
-          if (again) fail("it asks for two different changes of the same");
+          const bool same = std::any_of(sum.statements.begin(), sum.statements.end(), [&](const Statement& other) {
+            return reading_signature(facts.shape(), {other}) == reading_signature(facts.shape(), {statement});
+          });
+          if (again && !(same && !more.target)) fail("it asks for two different changes of the same");
           if (!again) sum.statements.push_back(statement);
         }
         sum.hints.insert(more.hints.begin(), more.hints.end());

@@ -28,10 +28,10 @@ const std::map<std::string_view, WordKind> plain_kinds = {
     {"by", WordKind::by},           {"of", WordKind::of},           {"at", WordKind::at},
     {"to", WordKind::to},           {"as", WordKind::as},           {"exact", WordKind::exact},
     {"percent", WordKind::percent}, {"degrees", WordKind::degrees}, {"same_size", WordKind::same_size},
-    {"without", WordKind::keep},    {"follow", WordKind::follow},   {"it", WordKind::whole},
-    {"outside", WordKind::unknown}};
+    {"without", WordKind::keep},    {"follow", WordKind::follow},   {"too", WordKind::too},
+    {"it", WordKind::whole},        {"outside", WordKind::unknown}};
 
-/// "width+", "side -x", "keep": the keys of a list.
+/// The keys of a list: "width+" for wider, "width-", "width=" for wide, "width~" for its opposite, "side -x", "keep".
 Word meaning(std::string_view key) {
   Word word;
   if (const auto plain = plain_kinds.find(key); plain != plain_kinds.end()) {
@@ -50,9 +50,10 @@ Word meaning(std::string_view key) {
     word.axis = key.back() - 'x';
     return word;
   }
-  word.kind = key.ends_with('=') ? WordKind::adjective : WordKind::change;
-  if (key.ends_with('+') || key.ends_with('-') || key.ends_with('=')) {
-    word.sign = key.ends_with('-') ? -1 : 1;
+  const bool is_adjective = key.ends_with('=') || key.ends_with('~');
+  word.kind = is_adjective ? WordKind::adjective : WordKind::change;
+  if (is_adjective || key.ends_with('+') || key.ends_with('-')) {
+    word.sign = key.ends_with('-') || key.ends_with('~') ? -1 : 1;
     key.remove_suffix(1);
     word.needs_object = key == "lift";
     word.change = key == "lift" ? Change::raise : sizes.at(key);

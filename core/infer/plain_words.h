@@ -32,7 +32,7 @@ enum class WordKind {
   whole,      ///< "it", "the table"
   part,       ///< names parts of the shape; only readings of a request have it, never a list
   change,     ///< "wider": change and sign
-  adjective,  ///< "wide", "width": change
+  adjective,  ///< "wide", "width": change; sign -1 for "low"
   more,
   less,
   many,
@@ -49,6 +49,7 @@ enum class WordKind {
   keep,
   fixed,
   same_size,
+  too,  ///< "too wide": less of it is wanted
   negation,
   follow,       ///< "let the fence follow": what others do by themselves
   conjunction,  ///< "and", ","

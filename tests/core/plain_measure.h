@@ -59,15 +59,15 @@ inline std::vector<Vec3> corners_at(const Shape& shape, const Evaluator& evaluat
   return all;
 }
 
-/// Least distance of the model under one edit, over its slider, from the one under another at 0.6 of its range;
-/// normalised, infinite when the numbers of parts never agree or an edit cannot be propagated.
+/// Least distance of the model under one edit, over its slider, from the one under another at 0.6 of its range upwards:
+/// both must do the same when the slider goes up. Normalised, infinite when the numbers of parts never agree or an edit cannot be propagated.
 inline double edit_distance(const Shape& shape, const EditRequest& edit, const EditRequest& truth) {
   const double infinite = std::numeric_limits<double>::infinity();
   const Result<Propagation> own = propagate(shape, edit), right = propagate(shape, truth);
   if (!own.ok() || !right.ok()) return infinite;
   const Evaluator at(own->program, shape), aim_at(right->program, shape);
   const Parameter &range = own->program.layers[0].parameter, &aimed = right->program.layers[0].parameter;
-  const std::vector<Vec3> aim = corners_at(shape, aim_at, 0.6 * (aimed.max >= -aimed.min ? aimed.max : aimed.min));
+  const std::vector<Vec3> aim = corners_at(shape, aim_at, 0.6 * aimed.max);
   const auto distance = [&](double x) {
     const std::vector<Vec3> here = corners_at(shape, at, x);
     if (here.size() != aim.size()) return infinite;
@@ -76,15 +76,15 @@ inline double edit_distance(const Shape& shape, const EditRequest& edit, const E
     return worst;
   };
   constexpr int steps = 60;
-  double best = infinite, where = 0, step = (range.max - range.min) / steps;
+  double best = infinite, where = 0, step = range.max / steps;
   for (int i = 0; i <= steps; ++i) {
-    const double d = distance(range.min + i * step);
-    if (d < best) best = d, where = range.min + i * step;
+    const double d = distance(i * step);
+    if (d < best) best = d, where = i * step;
   }
   for (int i = 0; i < 14; ++i) {
     step /= 2;
     for (const double x : {where - step, where + step}) {
-      if (x < range.min || x > range.max) continue;
+      if (x < 0 || x > range.max) continue;
       if (const double d = distance(x); d < best) best = d, where = x;
     }
   }
