@@ -89,7 +89,9 @@ class Parser {
       where({side.word.axis, side.word.sign}, side);
     }
     sides_.clear();
-    if (goes_ && c.change == Change::none && !adjective_ && !c.keeps && !c.nouns.empty()) c.change = Change::move;
+    // Not "stand it up", where the noun is a verb.
+    const bool only_goes = goes_ && c.change == Change::none && !adjective_ && !c.keeps;
+    if (only_goes && !c.nouns.empty() && !c.whole) c.change = Change::move;
     goes_ = false;
     if (middle_) unused(*middle_);
     middle_.reset();

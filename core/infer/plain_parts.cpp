@@ -40,7 +40,8 @@ std::string without_blanks(std::string text) {
 
 }  // namespace
 
-PartNames::PartNames(const Shape& shape, const WordList& list) : list_(list), shape_words_(label_words(shape.name)) {
+PartNames::PartNames(const Shape& shape, const WordList& list)
+    : shape_(shape), list_(list), shape_words_(label_words(shape.name)) {
   for (const PartIndex p : active_parts(shape)) {
     const Part& part = shape.parts[p];
     const std::string& label = part.is_virtual() ? shape.parts[part.members.front()].label : part.label;
@@ -135,11 +136,22 @@ NamedParts PartNames::called(std::span<const Token> phrase) const {
   for (const auto& [name, pieces] : list_.made_of) {
     if (!contains(forms, without_blanks(name))) continue;
     for (const std::string& piece : pieces) {
-      found.parts = bearing({piece});
+      found.parts = bearing({piece}, false);
+      std::erase_if(found.parts, [&](PartIndex p) { return !is_behind(p); });
       if (!found.parts.empty()) return found;
     }
   }
   return found;
+}
+
+bool PartNames::is_behind(PartIndex part) const {
+  double middle = 0, own = 0;
+  for (const Named& named : named_) {
+    const double z = shape_.parts[named.part].hexahedron.corners.col(2).mean();
+    middle += z / static_cast<double>(named_.size());
+    if (named.part == part) own = z;
+  }
+  return own < middle;
 }
 
 bool PartNames::is_whole(std::span<const Token> phrase) const {

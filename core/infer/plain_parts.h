@@ -41,6 +41,10 @@ class PartNames {
   };
   std::vector<PartIndex> bearing(const std::vector<std::string>& forms, bool by_key = true) const;
 
+  /// Behind the middle of the parts: of what a "back" is made of, only what is there.
+  bool is_behind(PartIndex part) const;
+
+  const Shape& shape_;
   const WordList& list_;
   std::vector<Named> named_;
   std::vector<std::string> known_;

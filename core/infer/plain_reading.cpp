@@ -118,10 +118,12 @@ Way take(const ShapeFacts& facts, const std::vector<Token>& tokens, const std::v
   Way way;
   for (const Item& item : items) {
     way.doubt += 3 * item.slip + item.distance;
-    if (item.slip > sure_slip) way.fault = "“" + tokens[item.first].said + "” may mean another word";
   }
   Sentence sentence = parse(items, tokens, names);
   way.unused = sentence.unused;
+  for (const Item& item : items) {
+    if (item.slip > sure_slip) way.unused.push_back(item.first);
+  }
   const auto fail = [&](const std::string& fault) {
     if (way.fault.empty()) way.fault = fault;
   };

@@ -40,6 +40,8 @@ class Meaning {
     for (const auto& set : sets) {
       Meant one = PartMeaning(facts_, clause_).of(set.front(), set);
       if (one.edits.empty()) return one;
+      if (!all.edits.front().statements.empty() && !alike(all.edits.front(), one.edits.front()))
+        one.fault = "the parts that are called that would change in different ways";
       Meant both;
       both.fault = all.fault.empty() ? one.fault : all.fault;
       for (const PlainEdit& before : all.edits) {
@@ -68,6 +70,18 @@ class Meaning {
   }
   /// "back" for two posts: one thing, though of several parts.
   bool made_of(const Noun& noun) const { return noun.is_made_of; }
+
+  /// The same operator along the same axis.
+  bool alike(const PlainEdit& a, const PlainEdit& b) const {
+    const Statement &first = a.statements.front(), &second = b.statements.front();
+    const auto axis = [&](const Statement& s) {
+      const auto& way = s.direction ? s.direction : s.normal;
+      if (!way) return -1;
+      if (const auto* own = std::get_if<PartAxis>(&*way)) return own->axis;
+      return main_axis_of(std::get<Vec3>(*way));
+    };
+    return first.op == second.op && axis(first) == axis(second);
+  }
 
   Meant which(const std::vector<PartIndex>& parts) {
     Meant offers{{}, "several parts are called that; which one?"};

@@ -128,7 +128,7 @@ void StatementMaker::space(PartIndex group) {
   const auto* row = std::get_if<Translation>(&relation.detail);
   const double spacing = row != nullptr
                              ? (row->end - row->start).norm() / static_cast<double>(parent.members.size() - 1)
-                             : std::get<Rotation>(relation.detail).radius;
+                             : 0;  // a ring's radius is no size that one measures
   measured(Quantity::ratio, group, "spacing", spacing);
 }
 

@@ -108,7 +108,8 @@ inline bool same_target(const nlohmann::json& expected, const nlohmann::json& fo
   if (expected["of"] != found["part"] || expected["what"] != found["what"]) return false;
   for (const char* kind : {"by", "to", "times"}) {
     if (expected.contains(kind) != found.contains(kind)) return false;
-    if (expected.contains(kind) && std::abs(expected[kind].get<double>() - found[kind].get<double>()) > 1e-9) return false;
+    if (expected.contains(kind) && std::abs(expected[kind].get<double>() - found[kind].get<double>()) > 1e-9)
+      return false;
   }
   return true;
 }
@@ -118,7 +119,8 @@ inline bool same_target(const nlohmann::json& expected, const nlohmann::json& fo
 inline PlainVerdict judge(const nlohmann::json& entry) {
   const Shape& shape = gallery_shape(entry["model"].get<std::string>());
   EditWish wish{entry["request"].get<std::string>(), {}};
-  for (const auto& id : entry.value("mentioned", nlohmann::json::array())) wish.mentioned.push_back(id.get<std::string>());
+  for (const auto& id : entry.value("mentioned", nlohmann::json::array()))
+    wish.mentioned.push_back(id.get<std::string>());
   const Result<PlainReading> read = read_plainly(shape, wish);
   PARSEL_ASSERT(read.ok(), "requests of the tests can be read");
   PlainVerdict verdict{read->sure, false, ""};
@@ -143,8 +145,11 @@ inline PlainVerdict judge(const nlohmann::json& entry) {
   bool any = false;
   double nearest = 1e9;
   for (const auto& edits : accepted) {
-    const Result<SeedReply> expected = read_seed_reply(shape, "```json\n" + nlohmann::json{{"edits", edits}}.dump() + "\n```");
-    PARSEL_ASSERT(expected.ok(), (entry["request"].get<std::string>() + ": " + (expected.ok() ? "" : expected.error().message())).c_str());
+    const Result<SeedReply> expected =
+        read_seed_reply(shape, "```json\n" + nlohmann::json{{"edits", edits}}.dump() + "\n```");
+    PARSEL_ASSERT(
+        expected.ok(),
+        (entry["request"].get<std::string>() + ": " + (expected.ok() ? "" : expected.error().message())).c_str());
     const bool same = reading_signature(shape, own.seed) == reading_signature(shape, expected->statements) &&
                       own.hints == hints && own.disabled.empty() == !breaks;
     any = any || same;
@@ -156,7 +161,8 @@ inline PlainVerdict judge(const nlohmann::json& entry) {
   const bool target = same_target(entry.value("target", nlohmann::json()), found);
   verdict.right = any && target;
   if (!verdict.right) {
-    verdict.why = read->words.front() + (any ? "" : ", another edit") + (target ? "" : ", another amount: " + found.dump());
+    verdict.why =
+        read->words.front() + (any ? "" : ", another edit") + (target ? "" : ", another amount: " + found.dump());
     if (!any) verdict.why += ", off by " + std::to_string(nearest);
     for (const auto& [part, hint] : own.hints) verdict.why += " " + part + ":" + std::string(to_string(hint));
   }

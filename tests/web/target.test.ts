@@ -1,8 +1,10 @@
 // Where a slider is put by a size that was said.
 import { describe, expect, it } from 'vitest';
-import { emptyDocument } from '../../web/src/session/document';
+import { emptyDocument, type LayerEntry } from '../../web/src/session/document';
+import type { Measure } from '../../web/src/session/measure';
+import { readLayer } from '../../web/src/session/reading';
 import { addProgram, document, notice, replaceDocument, undo } from '../../web/src/session/session';
-import { aimAt, wantedOf } from '../../web/src/session/target';
+import { aimAt, measureAimed, wantedOf } from '../../web/src/session/target';
 import type { Target } from '../../web/src/worker/protocol';
 import { twoBoxes } from './box_shapes';
 import { moving, openModel } from './fake_core';
@@ -34,11 +36,12 @@ describe('a size that was said', () => {
 
   it('of the whole is read off the whole', () => {
     const { key, value, scale } = moved();
-    const heights = twoBoxes.parts.flatMap(({ corners }) => corners.map((corner) => corner[1] ?? 0));
-    const height = (Math.max(...heights) - Math.min(...heights)) * scale;
-    aimAt(key, target({ part: null, what: 'height', by: 0.1 * scale }));
-    expect(value()).toBeGreaterThan(0);
-    expect(height).toBeGreaterThan(0);
+    const aimed = target({ part: null, what: 'height', by: 0.1 * scale });
+    const entry = () => document.value.layers[0] as LayerEntry;
+    const measure = measureAimed(twoBoxes, aimed, entry().layer.statements[0]) as Measure;
+    const [rest = 0] = readLayer(entry(), measure, [0]);
+    aimAt(key, aimed);
+    expect(readLayer(entry(), measure, [value()])[0]).toBeCloseTo(rest + 0.1 * scale, 6);
     expect(notice.value).toBe(null);
   });
 
