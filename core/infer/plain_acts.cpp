@@ -19,10 +19,14 @@ Meant PartMeaning::raise(PartIndex part) {
   // What stands and is no plate that lies there grows; what lies on supports goes up with them.
   const Vec3 e = facts_.edges(part);
   const bool is_upright = e[1] >= tall_enough * e.maxCoeff() && facts_.thin_axis(part) != std::optional(1);
+  const bool is_row = shape_.parts[part].is_virtual() && !group_fault(part, 1, false).empty();
+  if (is_row) return no_edit("it is not clear how high a row of " + name_of(shape_, part) + " shall be");
   if (is_upright && facts_.stands(part)) {
     if (std::string fault = group_fault(part, 1, false); !fault.empty()) return no_edit(fault);
     make.stretch(part, 1, {0, -1, 0});
   } else if (const auto below = facts_.support(part)) {
+    if (clause_.how_much && clause_.how_much->kind != HowMuch::Kind::by)
+      return no_edit("it is not clear from where that height is measured");
     make.stretch(*below, 1, {0, -1, 0});
   } else {
     make.move(part, {1, 1});

@@ -83,9 +83,10 @@ class Parser {
 
   void end_clause() {
     Clause& c = now();
-    // Sides that no part took: the way, or the place, if something changes.
+    // Sides that no part took are the way to go. A place is told with "at", "on" or "to": "the back thicker" is of a back.
+    const bool goes = c.change == Change::move || c.change == Change::tilt;
     for (const Item& side : sides_) {
-      if (c.change == Change::none && !c.only) unused(side);
+      if (!goes) unused(side);
       where({side.word.axis, side.word.sign}, side);
     }
     sides_.clear();
@@ -145,9 +146,7 @@ class Parser {
       c.how_much = pieces;
       number_.reset();
     }
-    if (c.how_much && c.how_much->kind == HowMuch::Kind::by && (to_ || exact_) &&
-        c.how_much->unit != HowMuch::Unit::ratio)
-      c.how_much->kind = HowMuch::Kind::to;
+    if (c.how_much && c.how_much->kind == HowMuch::Kind::by && (to_ || exact_)) c.how_much->kind = HowMuch::Kind::to;
     to_ = exact_ = false;
     if (c.how_much && c.change == Change::none && c.fault.empty() && !c.keeps && !c.nouns.empty())
       fault("it says how much, but not what shall change");
@@ -325,7 +324,7 @@ class Parser {
     while (next_is(WordKind::side, ahead) || next_is(WordKind::middle, ahead)) ++ahead;
     const bool has_part = next_is(WordKind::part, ahead);
     const bool of_part = next_is(WordKind::of, ahead) && next_is(WordKind::part, ahead + 1);
-    if (!has_part && !of_part && (told || now().change != Change::none || !now().nouns.empty())) {
+    if (!has_part && !of_part && told) {
       where({item.word.axis, item.word.sign}, item);
     } else {
       sides_.push_back(item);

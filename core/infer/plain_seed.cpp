@@ -35,6 +35,8 @@ class Meaning {
     if (acts && one_of_many && !noun.plural && !clause_.nouns.empty() && noun.sides.empty() && !made_of(noun)) {
       return which(parts);
     }
+    if (!noun.plural && !noun.sides.empty() && parts.size() > 1) return which(parts);
+    if (noun.is_made_of && !goes_for_pieces()) return no_edit("no part is called that, only pieces of it are");
     if (sets.size() > most_sets) return no_edit("several parts are called that");
     Meant all{{PlainEdit{}}, ""};
     for (const auto& set : sets) {
@@ -67,6 +69,10 @@ class Meaning {
   bool shares_all(const std::vector<PartIndex>& some, const std::vector<PartIndex>& all) const {
     return std::all_of(all.begin(), all.end(),
                        [&](PartIndex p) { return std::find(some.begin(), some.end(), p) != some.end(); });
+  }
+  /// What is true of the posts of a back is true of the back: that they grow upwards, or lean.
+  bool goes_for_pieces() const {
+    return clause_.change == Change::tilt || clause_.change == Change::raise || clause_.change == Change::height;
   }
   /// "back" for two posts: one thing, though of several parts.
   bool made_of(const Noun& noun) const { return noun.is_made_of; }

@@ -80,6 +80,10 @@ std::optional<int> PartMeaning::axis_of(PartIndex part) const {
 
 Meant PartMeaning::size_of(PartIndex part, const std::vector<PartIndex>& set) {
   StatementMaker make(facts_, clause_.sign);
+  // A seat that is 50 cm high is up there, not that thick.
+  const Vec3 e = facts_.edges(part);
+  if (clause_.change == Change::height && e[1] < flat * std::min(e[0], e[2]))
+    return no_edit("it is not clear whether " + name_of(shape_, part) + " shall be thicker or higher up");
   const auto bar = facts_.bar_axis(part);
   const bool to_side = clause_.change == Change::width || clause_.change == Change::depth;
   const int side_axis = clause_.change == Change::width ? 0 : 2;
@@ -91,7 +95,6 @@ Meant PartMeaning::size_of(PartIndex part, const std::vector<PartIndex>& set) {
   if (clause_.change == Change::size) {
     if (clause_.where || clause_.out != 0) return no_edit("it is not clear what shall happen on that side");
     if (shape_.parts[part].is_virtual()) return no_edit(group_fault(part, -1, false));
-    const Vec3 e = facts_.edges(part);
     e[1] < flat* std::min(e[0], e[2]) ? make.widen_round(part, 1, {0, 0, 0}) : make.grow(part);
     return finished(make);
   }

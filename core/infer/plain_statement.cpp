@@ -201,7 +201,9 @@ Meant StatementMaker::finish(const std::optional<HowMuch>& how_much, bool compar
     target.x = std::abs(*reached) / factor;
     statement.amount = amount(times_x(factor, less && !is_move));  // the direction of a move has its sign
   }
-  if (how_much->kind == HowMuch::Kind::by && how_much->unit == HowMuch::Unit::ratio) {
+  if (how_much->kind == HowMuch::Kind::to && how_much->unit == HowMuch::Unit::ratio) {
+    target.how_much.kind = HowMuch::Kind::times;  // "to 120 %"
+  } else if (how_much->kind == HowMuch::Kind::by && how_much->unit == HowMuch::Unit::ratio) {
     target.how_much = {HowMuch::Kind::times, HowMuch::Unit::ratio, 1 + sign_ * how_much->value};
   } else if (how_much->kind == HowMuch::Kind::by && !is_move && quantity_ != Quantity::angle) {
     target.how_much.value *= sign_;

@@ -169,6 +169,23 @@ inline PlainVerdict judge(const nlohmann::json& entry) {
   return verdict;
 }
 
+/// What a language model's recorded replies to a request, voted, come to; nothing when they are missing or unclear.
+inline std::optional<EditRequest> voted_edit(const Shape& shape, const EditWish& wish) {
+  std::vector<Replies> replies;
+  const Result<std::vector<Prompt>> prompts = make_prompts(shape, wish);
+  PARSEL_ASSERT(prompts.ok(), "recorded requests can be asked");
+  for (const Prompt& prompt : *prompts) {
+    std::ifstream file(PARSEL_TESTS_DIR "/../prompts/recordings/" + prompt.hash + ".json");
+    if (!file) return std::nullopt;
+    replies.push_back({prompt.task, prompt.relation, {}});
+    const nlohmann::json recording = nlohmann::json::parse(file);
+    for (const auto& reply : recording["replies"]) replies.back().texts.push_back(reply["text"].get<std::string>());
+  }
+  const Inference inference = infer(shape, replies);
+  if (inference.seed.outcome != SeedVote::Outcome::decided) return std::nullopt;
+  return inference.edit;
+}
+
 /// An entry of prompts/expected.json.
 inline PlainVerdict judge_recorded(const nlohmann::json& entry) {
   const std::string model = entry["model"].get<std::string>();

@@ -64,6 +64,12 @@ TEST_CASE("plain requests in other words, written down before they were run") {
   CHECK(counts.asked == counts.ask);
 }
 
+TEST_CASE("requests that are easily read wrongly are asked about") {
+  const Counts counts = measure("eval/plain_traps.json");
+  CHECK(counts.asked == counts.ask);
+  CHECK(counts.right == counts.all);
+}
+
 TEST_CASE("recorded requests: what is taken comes to the expected mesh") {
   int taken = 0, all = 0;
   for (const json& entry : json_file("../prompts/expected.json")) {
@@ -75,6 +81,27 @@ TEST_CASE("recorded requests: what is taken comes to the expected mesh") {
   }
   MESSAGE("of ", all, " recorded requests ", taken, " are taken");
   CHECK(taken >= 30);
+}
+
+TEST_CASE("recorded requests: what is taken does what the language model's voted replies do") {
+  int both = 0, same = 0;
+  for (const json& entry : json_file("../prompts/expected.json")) {
+    const std::string model = entry["model"].get<std::string>();
+    const Shape& shape = gallery_shape(model);
+    const EditWish wish{entry["request"].get<std::string>(), {}};
+    const PlainReading reading = read(model, wish.request);
+    const auto voted = voted_edit(shape, wish);
+    if (!reading.sure || !voted) continue;
+    ++both;
+    const bool form =
+        reading_signature(shape, voted->seed) == reading_signature(shape, reading.edits.front().statements);
+    const double distance = edit_distance(shape, edit_of(shape, reading), *voted);
+    if (form || distance <= same_mesh) ++same;
+    INFO(model, ": ", wish.request, ": ", reading.words.front(), ", off by ", distance);
+    CHECK((form || distance <= same_mesh));
+  }
+  MESSAGE("of ", both, " requests that both read, ", same, " come to the same seeds or mesh");
+  CHECK(both >= 30);
 }
 
 TEST_CASE("every word counts") {
