@@ -234,34 +234,34 @@ std::optional<PartIndex> ShapeFacts::upright() const {
 
 std::vector<PartIndex> ShapeFacts::carried_by(const std::vector<PartIndex>& parts) const {
   const std::set<PartIndex> carriers(parts.begin(), parts.end());
-  std::set<PartIndex> reached;
-  std::vector<PartIndex> open;
-  // What the carriers are not needed for: all that is joined to the largest of the others.
-  std::vector<PartIndex> others;
-  for (const PartIndex p : active_) {
-    if (carriers.count(p) == 0) others.push_back(p);
-  }
-  if (others.empty()) return {};
-  std::size_t most = 0;
-  std::set<PartIndex> main;
-  for (const PartIndex start : others) {
-    if (main.count(start) > 0) continue;
-    reached = {start};
-    open = {start};
+  // Without the carriers the shape falls apart; what is joined to the largest piece needs none of them.
+  std::vector<std::set<PartIndex>> pieces;
+  std::set<PartIndex> seen = carriers;
+  for (const PartIndex start : active_) {
+    if (!seen.insert(start).second) continue;
+    std::set<PartIndex> piece = {start};
+    std::vector<PartIndex> open = {start};
     while (!open.empty()) {
       const PartIndex p = open.back();
       open.pop_back();
       for (const Joint& joint : joints_[p.value()]) {
-        if (carriers.count(joint.other) == 0 && reached.insert(joint.other).second) open.push_back(joint.other);
+        if (!seen.insert(joint.other).second) continue;
+        piece.insert(joint.other);
+        open.push_back(joint.other);
       }
     }
-    if (reached.size() > most) most = reached.size(), main = reached;
+    pieces.push_back(std::move(piece));
   }
+  if (pieces.empty()) return {};
+  const auto largest =
+      std::max_element(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
   std::vector<PartIndex> carried;
-  for (const PartIndex p : others) {
-    const bool joined = std::any_of(joints_[p.value()].begin(), joints_[p.value()].end(),
-                                    [&](const Joint& joint) { return carriers.count(joint.other) > 0; });
-    if (main.count(p) == 0 && joined) carried.push_back(p);
+  for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {
+    const bool hangs_on = std::any_of(piece->begin(), piece->end(), [&](PartIndex p) {
+      return std::any_of(joints_[p.value()].begin(), joints_[p.value()].end(),
+                         [&](const Joint& joint) { return carriers.count(joint.other) > 0; });
+    });
+    if (piece != largest && hangs_on) carried.insert(carried.end(), piece->begin(), piece->end());
   }
   return carried;
 }

@@ -52,7 +52,7 @@ class ShapeFacts {
   std::optional<PartIndex> setting(int axis, std::optional<PartIndex>* close = nullptr) const;
   /// The upright part that sets the whole's height. Nothing when several, or none, may be meant.
   std::optional<PartIndex> upright() const;
-  /// Joined to the rest by these parts alone.
+  /// Parts that are joined to the rest by these alone, or by others that are.
   std::vector<PartIndex> carried_by(const std::vector<PartIndex>& parts) const;
   /// Which way is out for a part: the horizontal axis and side on which it is nearest to the whole's outside.
   std::pair<int, int> outward(PartIndex part) const;
