@@ -127,6 +127,23 @@ describe('parsel', () => {
     expect(readFileSync(join(folder, 'film.glb')).toString('latin1')).toContain('"animations"');
   });
 
+  it('read says what a plain request means, and when it is not sure what may be meant', () => {
+    const read = (...given: string[]) => runJson('read', 'chair.glb', '--request', ...given);
+    const wider = read('make the seat 10 cm wider');
+    expect(wider.plain).toMatchObject({ sure: true, unused: [], reason: null });
+    expect(wider.edit.seed).toMatchObject([{ op: 'scale_1d', part: 'seat', direction: [1, 0, 0], amount: 'x' }]);
+    expect(wider.plain.readings[0].target).toMatchObject({ part: 'seat', what: 'width', by: 0.1 });
+    write('read.json', wider.edit);
+    expect(runJson('propagate', 'chair.glb', 'read.json').layers[0].statements.length).toBeGreaterThan(1);
+    expect(read('longer', '--mention', 'leg_front_left').edit.seed).toMatchObject([{ part: 'leg_front_left' }]);
+    expect(read('make it nicer')).toMatchObject({
+      edit: null,
+      plain: { sure: false, unused: ['nicer'], readings: [] },
+    });
+    expect(refusal('read', 'chair.glb', '--request', ' ')).toMatchObject({ code: 1 });
+    expect(refusal('read', 'chair.glb')).toMatchObject({ code: 2 });
+  });
+
   it('score gives a program full marks against itself and fewer against another', () => {
     const perfect = runJson('score', 'chair.glb', '--truth', 'program.json', '--program', 'program.json');
     const poor = readJson('program.json');
