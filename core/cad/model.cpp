@@ -82,6 +82,10 @@ const Part* Model::find(std::string_view id) const {
   return found == parts.end() ? nullptr : &*found;
 }
 
+std::string stem(const Part& part) {
+  return grouping_key(part.label);
+}
+
 void name_and_place(Model& model) {
   Vec3 low = Vec3::Constant(1e300), high = -low;
   for (const Part& part : model.parts) {

@@ -1,5 +1,6 @@
 #include "core/cad/placing.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

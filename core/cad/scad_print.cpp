@@ -1,5 +1,7 @@
 #include "core/cad/scad_print.h"
 
+#include <Eigen/Geometry>
+
 #include <charconv>
 #include <cmath>
 
