@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace parsel::family {
 
@@ -19,13 +20,14 @@ SparseRow row_of(const Form& form) {
 
 /// The sooner, the rather a pivot: centres, then sizes of small parts before those of big ones; of parts alike the later
 /// ones stay free last, so that the first leg speaks for all. Tops stay free.
-std::vector<std::size_t> preference(const Layout& layout, const cad::Model& model) {
+std::vector<std::size_t> preference(const Layout& layout, const cad::Model& model, std::size_t pinned) {
   std::vector<std::size_t> order(layout.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto rank = [&](std::size_t i) { return static_cast<int>(layout.parameters[i].quantity); };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     if (rank(a) != rank(b)) return rank(a) < rank(b);
     const std::size_t p = layout.parameters[a].part, q = layout.parameters[b].part;
+    if ((p == pinned) != (q == pinned)) return q == pinned;
     const double small = volume(model.parts[p]), big = volume(model.parts[q]);
     if (std::abs(small - big) > 1e-9 * std::max(small, big)) return small < big;
     return p > q;
@@ -42,18 +44,19 @@ Pins find_pins(const Layout& layout, const cad::Model& model, const std::vector<
   const auto is_always_there = [&](std::size_t part) {
     return std::all_of(variations.begin(), variations.end(), [&](const Variation& v) { return v.has(part); });
   };
-  std::vector<std::size_t> spoken_of(model.parts.size(), 0);
+  // Sizes that are equal tie nothing to its place.
+  std::vector<std::set<std::size_t>> tied(model.parts.size());
   for (std::size_t i = 0; i < constraints.size(); ++i) {
-    if (!evidence[i].is_kept) continue;
-    ++spoken_of[constraints[i].a.part];
-    ++spoken_of[constraints[i].b.part];
+    if (!evidence[i].is_kept || constraints[i].kind == ConstraintKind::equal) continue;
+    tied[constraints[i].a.part].insert(constraints[i].b.part);
+    tied[constraints[i].b.part].insert(constraints[i].a.part);
   }
   Pins pins;
   const auto underside = [&](std::size_t p) { return model.parts[p].centre.y() - model.parts[p].size.y() / 2; };
   bool is_first = true;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     if (!is_always_there(p) || model.parts[p].role != cad::Role::add) continue;
-    const auto key = [&](std::size_t q) { return std::pair(spoken_of[q], volume(model.parts[q])); };
+    const auto key = [&](std::size_t q) { return std::pair(tied[q].size(), volume(model.parts[q])); };
     if (is_first || key(p) > key(pins.part)) pins.part = p;
     if (is_first || underside(p) < underside(pins.lowest) - 1e-12) pins.lowest = p;
     is_first = false;
@@ -75,7 +78,7 @@ Result<Basis> find_basis(const Layout& layout, const cad::Model& model, const st
                          const std::vector<Evidence>& evidence, const Pins& pins) {
   const std::size_t n = layout.size();
   // The values of the pinned forms are three columns more, never pivots: translations satisfy every constraint.
-  std::vector<std::size_t> order = preference(layout, model);
+  std::vector<std::size_t> order = preference(layout, model, pins.part);
   for (std::size_t k = 0; k < 3; ++k) order.push_back(n + k);
   Elimination elimination(std::move(order));
   for (std::size_t i = 0; i < constraints.size(); ++i) {

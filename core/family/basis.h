@@ -3,7 +3,7 @@
 //
 // The paper eliminates in the order in which parameters are stored; what then stays free is an accident ("the right
 // arm's x" widens a chair). Here three rows more pin the model in place, and pivots are taken first among centres, then
-// among sizes of small parts, last among sizes of big ones: the free parameters are sizes that people name. The chair of
+// among sizes of small parts, last among sizes of big ones, the pinned part counting as the biggest: the free parameters are sizes that people name. The chair of
 // the paper gets leg height, leg section, seat width, depth and thickness, …, with coefficients ±1 and ±1/2 alone.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace parsel::family {
 
 /// Three forms that stay as they are in the base: the centre's x and z of one part, the underside of another.
 struct Pins {
-  std::size_t part = 0;    ///< the one that most kept constraints speak of; of several the largest
+  std::size_t part = 0;    ///< the one that kept constraints of place tie to most others; of several the largest
   std::size_t lowest = 0;  ///< of the parts that no variation lacks, if any
   std::array<Form, 3> forms;
 };

@@ -31,11 +31,13 @@ Status check_choices(const Options& options, const std::vector<Constraint>& cons
 }
 
 void select_by_ranking(Family& family) {
-  const Ranking ranking = rank_constraints(family.model, family.layout, family.base, family.constraints, family.variations);
+  const Ranking ranking =
+      rank_constraints(family.model, family.layout, family.base, family.constraints, family.variations);
   const std::size_t end = family.options.selection == Selection::ranking ? cutoff_by_mean(ranking.losses)
                                                                          : cutoff_by_derivative(ranking.losses);
   for (Evidence& evidence : family.evidence) evidence.is_kept = false;
-  for (std::size_t i = 0; i < std::min(end, ranking.order.size()); ++i) family.evidence[ranking.order[i]].is_kept = true;
+  for (std::size_t i = 0; i < std::min(end, ranking.order.size()); ++i)
+    family.evidence[ranking.order[i]].is_kept = true;
   for (std::size_t i = 0; i < family.constraints.size(); ++i) {
     const auto choice = family.options.choices.find(family.constraints[i].id());
     if (choice != family.options.choices.end()) family.evidence[i].is_kept = choice->second == Choice::forced;
@@ -43,18 +45,21 @@ void select_by_ranking(Family& family) {
 }
 
 void warn(Family& family) {
-  if (family.model.parts.size() == 1) family.warnings.push_back("the model has one part: its sliders are its own sizes");
+  if (family.model.parts.size() == 1)
+    family.warnings.push_back("the model has one part: its sliders are its own sizes");
   if (family.variations.empty()) {
-    family.warnings.push_back("there are no variations: every constraint of the base is kept, also what is so by accident");
+    family.warnings.push_back(
+        "there are no variations: every constraint of the base is kept, also what is so by accident");
   } else if (family.variations.size() < 3) {
     family.warnings.push_back("there are fewer than three variations: more is kept than is meant");
   }
   if (!family.constraints.empty() && family.independent.empty()) {
-    family.warnings.push_back("the variations share none of the model's constraints: every size has a slider of its own");
+    family.warnings.push_back(
+        "the variations share none of the model's constraints: every size has a slider of its own");
   }
   for (std::size_t p = 0; p < family.model.parts.size(); ++p) {
     const bool is_seen = family.variations.empty() || std::any_of(family.variations.begin(), family.variations.end(),
-                                                                   [&](const Variation& v) { return v.has(p); });
+                                                                  [&](const Variation& v) { return v.has(p); });
     if (!is_seen) family.warnings.push_back("no variation has the " + family.model.parts[p].name);
   }
 }
@@ -96,10 +101,12 @@ Result<Family> make_family(const cad::Model& model, std::vector<Variation> varia
   family.base = family.basis.values(family.base_setting, family.pinned);
 
   for (const Variation& variation : family.variations) {
-    const Values all = filled(family.layout, family.constraints, family.evidence, variation, family.base, family.tolerance);
+    const Values all =
+        filled(family.layout, family.constraints, family.evidence, variation, family.base, family.tolerance);
     family.settings.push_back(projected(family.layout, family.basis, family.pins, family.pinned, all));
   }
-  family.sliders = find_sliders(family.layout, model, family.basis, family.base_setting, family.variations, family.settings);
+  family.sliders =
+      find_sliders(family.layout, model, family.basis, family.base_setting, family.variations, family.settings);
   family.orders = find_orders(family.layout, model, family.base, family.variations, family.tolerance);
   family.bounds = find_bounds(family.layout, family.orders, family.basis, family.pinned, family.base, family.variations,
                               family.tolerance);

@@ -36,10 +36,10 @@ struct Family {
   std::vector<Variation> variations;
 
   Count candidates;
-  std::vector<Constraint> constraints;  ///< those that hold in the base
-  std::vector<Evidence> evidence;       ///< by constraint
+  std::vector<Constraint> constraints;   ///< those that hold in the base
+  std::vector<Evidence> evidence;        ///< by constraint
   std::vector<std::size_t> independent;  ///< of the kept ones
-  std::size_t base_rank = 0;            ///< of all constraints
+  std::size_t base_rank = 0;             ///< of all constraints
 
   Pins pins;
   Eigen::Vector3d pinned;  ///< values of the pinned forms

@@ -22,9 +22,10 @@ Json constraints_json(const Family& family) {
   for (std::size_t i = 0; i < family.constraints.size(); ++i) {
     const Constraint& constraint = family.constraints[i];
     const Evidence& evidence = family.evidence[i];
-    Json json = {{"id", constraint.id()},   {"kind", to_string(constraint.kind)}, {"a", constraint.a.name},
-                 {"b", constraint.b.name},  {"state", state_of(family, i)},       {"kept", evidence.is_kept},
-                 {"of", evidence.seen},     {"holds", evidence.seen - evidence.broken_by.size()}};
+    Json json = {{"id", constraint.id()},        {"kind", to_string(constraint.kind)},
+                 {"a", constraint.a.name},       {"b", constraint.b.name},
+                 {"state", state_of(family, i)}, {"kept", evidence.is_kept},
+                 {"of", evidence.seen},          {"holds", evidence.seen - evidence.broken_by.size()}};
     for (const std::size_t v : evidence.broken_by) json["broken_by"].push_back(family.variations[v].name);
     list.push_back(std::move(json));
   }
@@ -99,7 +100,8 @@ Json to_json(const Family& family) {
                {"constraints", constraints_json(family)},
                {"sliders", sliders_json(family)},
                {"warnings", family.warnings}};
-  const std::string pinned = family.model.parts[family.pins.part].id, lowest = family.model.parts[family.pins.lowest].id;
+  const std::string pinned = family.model.parts[family.pins.part].id,
+                    lowest = family.model.parts[family.pins.lowest].id;
   json["pins"] = {{{"of", pinned + ".cx"}, {"value", family.pinned[0]}},
                   {{"of", pinned + ".cz"}, {"value", family.pinned[1]}},
                   {{"of", lowest + ".y-"}, {"value", family.pinned[2]}}};

@@ -14,8 +14,8 @@ struct Coefficient {
   bool is_zero() const { return exact.is_zero() && rest == 0; }
   Amount times(const std::string& parameter) const {
     const GiNaC::ex symbol = Amount::parameter(parameter).expression();
-    const GiNaC::numeric fraction = GiNaC::numeric(static_cast<long>(exact.numerator())) /
-                                    GiNaC::numeric(static_cast<long>(exact.denominator()));
+    const GiNaC::numeric fraction =
+        GiNaC::numeric(static_cast<long>(exact.numerator())) / GiNaC::numeric(static_cast<long>(exact.denominator()));
     if (rest == 0) return Amount(fraction * symbol);
     return Amount(Amount::constant(exact.value() + rest).expression() * symbol);
   }
@@ -54,10 +54,12 @@ class Compiler {
 
   void part(std::size_t p) {
     const cad::Part& given = family_.model.parts[p];
-    const bool has_top = given.kind == cad::Kind::cone && family_.options.vocabulary == Vocabulary::extended && given.top > 0;
+    const bool has_top =
+        given.kind == cad::Kind::cone && family_.options.vocabulary == Vocabulary::extended && given.top > 0;
     const cad::Extent box = cad::extent(given);
     for (int axis = 0; axis < 3; ++axis) {
-      const Rational centre = coefficient(family_.layout.centre(p, axis)), size = coefficient(family_.layout.extent(p, axis));
+      const Rational centre = coefficient(family_.layout.centre(p, axis)),
+                     size = coefficient(family_.layout.extent(p, axis));
       if (has_top && axis != given.axis) {
         top_edges(p, axis, centre, size);
         continue;

@@ -28,7 +28,8 @@ std::string sum_text(const Family& family, std::size_t parameter, bool negated) 
     append((c.numerator() < 0) != negated, term);
   }
   const double constant =
-      cad::tidy(family.basis.pin_matrix.row(static_cast<Eigen::Index>(parameter)).dot(family.pinned)) * (negated ? -1 : 1);
+      cad::tidy(family.basis.pin_matrix.row(static_cast<Eigen::Index>(parameter)).dot(family.pinned)) *
+      (negated ? -1 : 1);
   if (constant != 0 || out.empty()) append(constant < 0, cad::decimal(std::abs(constant)));
   return out;
 }
@@ -92,11 +93,13 @@ std::string family_scad(const Family& family) {
   std::string out;
   std::vector<std::string> sections;
   for (const Slider& slider : family.sliders) {
-    if (std::find(sections.begin(), sections.end(), slider.section) == sections.end()) sections.push_back(slider.section);
+    if (std::find(sections.begin(), sections.end(), slider.section) == sections.end())
+      sections.push_back(slider.section);
   }
   for (const std::string& section : sections) {
     std::string shown = section;
-    std::replace_if(shown.begin(), shown.end(), [](char c) { return c == ']' || c == '*' || c == '/'; }, ' ');
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return c == ']' || c == '*' || c == '/'; }, ' ');
     out += "/* [" + shown + "] */\n";
     for (std::size_t k = 0; k < family.sliders.size(); ++k) {
       if (family.sliders[k].section == section) out += declaration(family, k);

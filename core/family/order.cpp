@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <map>
 
 namespace parsel::family {
 
@@ -50,8 +50,8 @@ std::vector<Bound> find_bounds(const Layout& layout, const Orders& orders, const
                                const Eigen::Vector3d& pins, const Values& base,
                                const std::vector<Variation>& variations, double tolerance) {
   std::vector<Bound> bounds;
-  std::set<std::vector<double>> known;
-  const auto add = [&](const Form& form, double at_least, Stop stop) {
+  std::map<std::vector<double>, std::size_t> known;  // to the index of the bound
+  const auto add = [&](const Form& form, double at_least, Stop stop, std::size_t p, std::size_t q) {
     Bound bound;
     bound.form = Eigen::VectorXd::Zero(basis.matrix.cols());
     bound.constant = -at_least;
@@ -65,7 +65,9 @@ std::vector<Bound> find_bounds(const Layout& layout, const Orders& orders, const
     key.push_back(bound.constant);
     for (double& entry : key) entry = std::round(entry / 1e-9);
     bound.stop = std::move(stop);
-    if (known.insert(std::move(key)).second) bounds.push_back(std::move(bound));
+    const auto [entry, is_new] = known.emplace(std::move(key), bounds.size());
+    if (is_new) bounds.push_back(std::move(bound));
+    bounds[entry->second].parts.push_back({p, q});
   };
   if (basis.free.empty()) return bounds;
   for (const Order& order : orders.kept) {
@@ -73,7 +75,7 @@ std::vector<Bound> find_bounds(const Layout& layout, const Orders& orders, const
     for (const Term& term : plane_form(layout, order.low_part, order.axis, order.low_side)) {
       form.push_back({term.parameter, -term.halves});
     }
-    add(form, 0, {order, 0});
+    add(form, 0, {order, 0}, order.low_part, order.high_part);
   }
   for (std::size_t i = 0; i < layout.size(); ++i) {
     if (layout.parameters[i].quantity == Quantity::centre) continue;
@@ -82,18 +84,25 @@ std::vector<Bound> find_bounds(const Layout& layout, const Orders& orders, const
       if (variation.has(layout.parameters[i].part))
         least = std::min(least, variation.values[static_cast<Eigen::Index>(i)]);
     }
-    add({{i, 2}}, std::max(least / 100, tolerance), {std::nullopt, i});
+    const std::size_t part = layout.parameters[i].part;
+    add({{i, 2}}, std::max(least / 100, tolerance), {std::nullopt, i}, part, part);
   }
   return bounds;
 }
 
-Interval interval(const std::vector<Bound>& bounds, const Eigen::VectorXd& free_values, std::size_t slider) {
+bool Bound::counts(const std::vector<bool>& present) const {
+  return present.empty() || std::any_of(parts.begin(), parts.end(),
+                                        [&](const auto& pair) { return present[pair[0]] && present[pair[1]]; });
+}
+
+Interval interval(const std::vector<Bound>& bounds, const Eigen::VectorXd& free_values, std::size_t slider,
+                  const std::vector<bool>& present) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   Interval made{-infinite, infinite, {}, {}};
   const auto s = static_cast<Eigen::Index>(slider);
   for (const Bound& bound : bounds) {
     const double slope = bound.form[s];
-    if (std::abs(slope) < 1e-12) continue;
+    if (std::abs(slope) < 1e-12 || !bound.counts(present)) continue;
     const double rest = bound.form.dot(free_values) - slope * free_values[s] + bound.constant;
     const double at = -rest / slope;
     if (slope > 0 && at > made.low) {

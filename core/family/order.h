@@ -2,6 +2,7 @@
 // (§3.5: "we do not have bounds on this space"). They stop a slider before the shelf meets the floor, and say so.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,11 @@ struct Bound {
   Eigen::VectorXd form;
   double constant = 0;
   Stop stop;
+  /// The pairs of parts that it speaks of (a size: the part twice): without one of each it says nothing.
+  std::vector<std::array<std::size_t, 2>> parts;
+
+  /// Whether it counts when these parts are there; empty: all.
+  bool counts(const std::vector<bool>& present) const;
 };
 
 /// The orders and the least sizes (a hundredth of the smallest value in the base and the variations) in terms of the
@@ -44,12 +50,14 @@ std::vector<Bound> find_bounds(const Layout& layout, const Orders& orders, const
                                const Eigen::Vector3d& pins, const Values& base,
                                const std::vector<Variation>& variations, double tolerance);
 
-/// How far a free parameter may go with the others as they are. Infinite where nothing stops it; empty (low > high)
+/// How far a free parameter may go with the others as they are and the parts that are there (empty: all). Infinite where
+/// nothing stops it; empty (low > high)
 /// where a bound is broken whatever it does.
 struct Interval {
   double low = 0, high = 0;
   std::optional<Stop> low_stop, high_stop;
 };
-Interval interval(const std::vector<Bound>& bounds, const Eigen::VectorXd& free_values, std::size_t slider);
+Interval interval(const std::vector<Bound>& bounds, const Eigen::VectorXd& free_values, std::size_t slider,
+                  const std::vector<bool>& present = {});
 
 }  // namespace parsel::family

@@ -35,8 +35,14 @@ double solid_share(const cad::Part& part) {
 /// A variation on its way.
 class Moving {
  public:
-  Moving(const cad::Model& model, const Layout& layout, const Values& values, std::vector<bool> present, int gauss_points)
-      : model_(model), layout_(layout), present_(std::move(present)), gauss_points_(gauss_points), original_(values), now_(values) {}
+  Moving(const cad::Model& model, const Layout& layout, const Values& values, std::vector<bool> present,
+         int gauss_points)
+      : model_(model),
+        layout_(layout),
+        present_(std::move(present)),
+        gauss_points_(gauss_points),
+        original_(values),
+        now_(values) {}
 
   /// Prepares for candidates on top of `chosen`, on which it lies.
   void prepare(const Matrix& chosen) {
@@ -142,7 +148,8 @@ Ranking rank_constraints(const cad::Model& model, const Layout& layout, const Va
     for (std::size_t p = 0; p < present.size(); ++p) present[p] = variation.has(p);
     moving.emplace_back(model, layout, variation.values, std::move(present), gauss_points);
   }
-  if (moving.empty()) moving.emplace_back(model, layout, base, std::vector<bool>(model.parts.size(), true), gauss_points);
+  if (moving.empty())
+    moving.emplace_back(model, layout, base, std::vector<bool>(model.parts.size(), true), gauss_points);
 
   std::vector<std::vector<SparseRow>> rows;
   std::vector<Matrix> matrices;
@@ -157,7 +164,8 @@ Ranking rank_constraints(const cad::Model& model, const Layout& layout, const Va
   Ranking ranking;
   for (;;) {
     std::erase_if(left, [&](std::size_t i) {
-      return std::none_of(rows[i].begin(), rows[i].end(), [&](const SparseRow& row) { return chosen.raises_rank(row); });
+      return std::none_of(rows[i].begin(), rows[i].end(),
+                          [&](const SparseRow& row) { return chosen.raises_rank(row); });
     });
     if (left.empty()) return ranking;
     const Matrix now = dense(chosen_rows, layout.size());

@@ -38,7 +38,8 @@ std::string spaced(std::string text) {
 
 class Namer {
  public:
-  Namer(const Layout& layout, const cad::Model& model, const Basis& basis) : layout_(layout), model_(model), basis_(basis) {}
+  Namer(const Layout& layout, const cad::Model& model, const Basis& basis)
+      : layout_(layout), model_(model), basis_(basis) {}
 
   void name(Slider& slider, Eigen::Index column) {
     const Parameter& own = layout_.parameters[slider.parameter];
@@ -108,9 +109,8 @@ std::vector<Slider> find_sliders(const Layout& layout, const cad::Model& model, 
       if (!basis.coefficients[i][k].is_zero()) slider.moves.push_back(i);
     }
     for (std::size_t v = 0; v < variations.size(); ++v) {
-      const bool counts = std::any_of(slider.moves.begin(), slider.moves.end(), [&](std::size_t i) {
-        return variations[v].has(layout.parameters[i].part);
-      });
+      const bool counts = std::any_of(slider.moves.begin(), slider.moves.end(),
+                                      [&](std::size_t i) { return variations[v].has(layout.parameters[i].part); });
       if (!counts) continue;
       slider.min = std::min(slider.min, settings[v][column]);
       slider.max = std::max(slider.max, settings[v][column]);

@@ -9,12 +9,12 @@
 namespace parsel::family {
 
 struct Slider {
-  std::size_t parameter = 0;  ///< into the layout
-  std::string name;           ///< for people, unique: "leg height"
-  std::string variable;       ///< for OpenSCAD, unique: "leg_height"
-  std::string section;        ///< "Leg"
-  double value = 0;           ///< in the base
-  double min = 0, max = 0;    ///< hull of the base and the variations, min ≤ value ≤ max
+  std::size_t parameter = 0;       ///< into the layout
+  std::string name;                ///< for people, unique: "leg height"
+  std::string variable;            ///< for OpenSCAD, unique: "leg_height"
+  std::string section;             ///< "Leg"
+  double value = 0;                ///< in the base
+  double min = 0, max = 0;         ///< hull of the base and the variations, min ≤ value ≤ max
   std::vector<std::size_t> moves;  ///< parameters that change with it, itself included
 };
 

@@ -30,8 +30,9 @@ class Slice {
     if (part_.kind != cad::Kind::cone || part_.axis == 1) return;
     const double t = part_.top / part_.size[(part_.axis + 1) % 3], half = part_.size.z() / 2, c = part_.centre.z();
     const double v = (y_ - part_.centre.y()) / (part_.size.y() / 2);
-    if (part_.axis == 0 && t > std::abs(v)) {
-      const double reach = half * std::sqrt(t * t - v * v);
+    for (const double radius : {1.0, t}) {
+      if (part_.axis != 0 || radius <= std::abs(v)) continue;
+      const double reach = half * std::sqrt(radius * radius - v * v);
       zs.insert(zs.end(), {c - reach, c + reach});
     }
     if (part_.axis == 2 && t != 1) {
@@ -143,7 +144,8 @@ double measure(std::vector<Interval1>& intervals) {
 
 void sort_unique(std::vector<double>& values) {
   std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end(), [](double a, double b) { return b - a < 1e-12; }), values.end());
+  values.erase(std::unique(values.begin(), values.end(), [](double a, double b) { return b - a < 1e-12; }),
+               values.end());
 }
 
 }  // namespace
@@ -164,8 +166,10 @@ Overlap overlap(const std::vector<cad::Part>& a, const std::vector<cad::Part>& b
       if (!is_box) ys.push_back(part.centre.y() + (box.low.y() + box.high.y()) / 2);
       is_flat &= is_box;
       if (part.kind == cad::Kind::cone && part.axis != 1) {
-        const double reach = part.top / part.size[(part.axis + 1) % 3] * part.size.y() / 2;
-        ys.insert(ys.end(), {part.centre.y() - reach, part.centre.y() + reach});
+        for (const double radius : {1.0, part.top / part.size[(part.axis + 1) % 3]}) {
+          const double reach = radius * part.size.y() / 2;
+          ys.insert(ys.end(), {part.centre.y() - reach, part.centre.y() + reach});
+        }
       }
     }
   }

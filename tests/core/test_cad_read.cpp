@@ -60,11 +60,12 @@ TEST_CASE("cad: solids and transformations along the axes") {
   check_box("scale([2, 1, 0.5]) translate([1, 0, 0]) cube(2, center = true);", {2, 0, 0}, {4, 2, 1});
   check_box("rotate([0, 0, 90]) cube([2, 3, 4]);", {-1.5, 1, 2}, {3, 2, 4});
   check_box("rotate(a = -90, v = [1, 0, 0]) cube([2, 3, 4]);", {1, 2, -1.5}, {2, 4, 3});
-  check_box("rotate([90, 90, 0]) cube([2, 3, 4]);", {1.5, -2, -1} , {3, 4, 2});
+  check_box("rotate([90, 90, 0]) cube([2, 3, 4]);", {1.5, -2, -1}, {3, 4, 2});
   check_box("mirror([1, 0, 0]) cube([2, 3, 4]);", {-1, 1.5, 2}, {2, 3, 4});
   check_box("multmatrix([[1, 0, 0, 5], [0, 2, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) cube(1);", {5.5, 1, 0.5}, {1, 2, 1});
   check_box("cylinder(h = 4, r = 1);", {0, 0, 2}, {2, 2, 4});
-  check_box("rotate([0, 90, 45]) cylinder(h = 4, d = 3, center = true);", {0, 0, 0}, {4.949747468306, 4.949747468306, 3});
+  check_box("rotate([0, 90, 45]) cylinder(h = 4, d = 3, center = true);", {0, 0, 0},
+            {4.949747468306, 4.949747468306, 3});
   check_box("rotate([0, 0, 37]) cylinder(h = 4, d = 3, center = true);", {0, 0, 0}, {3, 3, 4});
   check_box("rotate([0, 90, 0]) cylinder(h = 4, d = 3, center = true);", {0, 0, 0}, {4, 3, 3});
   check_box("rotate([10, 20, 30]) sphere(d = 3);", {0, 0, 0}, {3, 3, 3});
@@ -128,8 +129,10 @@ TEST_CASE("cad: what OpenSCAD writes as .csg") {
   const Model model = read(
       "group() {\n\tmultmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 20], [0, 0, 0, 1]]) {\n"
       "\t\tcube(size = [40, 40, 3], center = true);\n\t}\n"
-      "\tcolor([1, 0, 0, 0.5]) {\n\t\tcylinder($fn = 0, $fa = 12, $fs = 2, h = 18.5, r1 = 2, r2 = 2, center = false);\n\t}\n"
-      "\tgroup();\n\tdifference() {\n\t\tsphere($fn = 0, $fa = 12, $fs = 2, r = 5);\n\t\tcube(size = [1, 1, 1]);\n\t}\n}\n");
+      "\tcolor([1, 0, 0, 0.5]) {\n\t\tcylinder($fn = 0, $fa = 12, $fs = 2, h = 18.5, r1 = 2, r2 = 2, center = "
+      "false);\n\t}\n"
+      "\tgroup();\n\tdifference() {\n\t\tsphere($fn = 0, $fa = 12, $fs = 2, r = 5);\n\t\tcube(size = [1, 1, "
+      "1]);\n\t}\n}\n");
   REQUIRE(model.parts.size() == 4);
   CHECK(model.parts[0].centre == Vec3(0, 20, 0));
   CHECK(model.parts[1].kind == Kind::cylinder);
@@ -144,9 +147,9 @@ TEST_CASE("cad: each literal remembers its place") {
   REQUIRE(model.parts.size() == 1);
   const cad::Part& part = model.parts[0];
   CHECK(part.place == Place{3, 13});
-  CHECK(part.size_places[0] == Place{3, 19});   // 4
-  CHECK(part.size_places[2] == Place{1, 5});    // OpenSCAD's y, through the variable
-  CHECK(part.size_places[1] == Place{});        // computed
+  CHECK(part.size_places[0] == Place{3, 19});  // 4
+  CHECK(part.size_places[2] == Place{1, 5});   // OpenSCAD's y, through the variable
+  CHECK(part.size_places[1] == Place{});       // computed
   CHECK(part.centre_places[0] == Place{2, 12});
   CHECK(part.centre_places[2] == Place{2, 15});
   CHECK(part.centre_places[1] == Place{});
@@ -170,7 +173,9 @@ TEST_CASE("cad: names come from comments, modules or the shape") {
 }
 
 TEST_CASE("cad: Customizer ranges and sections") {
-  const Model model = read("/* [Legs] */\nh = 45; // [20 : 5 : 90]\nw = 3; // [1:9]\nn = 2; // how many\n/* [Hidden] */\nq = 1; // [0:2]\ncube([w, w, h]);");
+  const Model model = read(
+      "/* [Legs] */\nh = 45; // [20 : 5 : 90]\nw = 3; // [1:9]\nn = 2; // how many\n/* [Hidden] */\nq = 1; // "
+      "[0:2]\ncube([w, w, h]);");
   REQUIRE(model.ranges.size() == 2);
   CHECK(model.ranges[0].name == "h");
   CHECK(model.ranges[0].section == "Legs");
@@ -220,8 +225,13 @@ TEST_CASE("cad: endless programs are refused within a second") {
     doubling += "a" + std::to_string(i) + " = [" + last + ", " + last + "];\n";
   }
   CHECK(has(refused(doubling + "cube(a39 == a38 ? 1 : 0 / 0);"), "divides by zero"));
-  CHECK(has(refused("a = [for (i = [0 : 999]) i]; b = [for (i = [0 : 999]) a]; c = [for (i = [0 : 999]) b]; d = c + c; cube(1);"), "the vectors are too large"));
-  CHECK(has(refused("s0 = \"0123456789\"; function f(s, n) = n == 0 ? s : f(str(s, s), n - 1); echo(f(s0, 60)); cube(1);"), "longer than 10,000 bytes"));
+  CHECK(has(
+      refused(
+          "a = [for (i = [0 : 999]) i]; b = [for (i = [0 : 999]) a]; c = [for (i = [0 : 999]) b]; d = c + c; cube(1);"),
+      "the vectors are too large"));
+  CHECK(has(
+      refused("s0 = \"0123456789\"; function f(s, n) = n == 0 ? s : f(str(s, s), n - 1); echo(f(s0, 60)); cube(1);"),
+      "longer than 10,000 bytes"));
   CHECK(has(refused("x = " + std::string(100'000, '(')), "nested deeper"));
   CHECK(has(refused("x = " + std::string(100'000, '-') + "1;"), "nested deeper"));
   CHECK(has(refused("x = " + std::string(100'000, '[') + "1;"), "nested deeper"));

@@ -152,8 +152,10 @@ TEST_CASE("volume: boxes exactly, round parts nearly") {
   }
   CHECK(volume(part(cad::Kind::sphere, {0, 0, 0}, {2, 4, 6})) == doctest::Approx(8 * pi).epsilon(0.01));
 
-  const std::vector<cad::Part> a = {part(cad::Kind::box, {0, 0, 0}, {2, 2, 2}), part(cad::Kind::box, {1, 0, 0}, {2, 2, 2})};
-  const std::vector<cad::Part> b = {part(cad::Kind::box, {0, 1, 0}, {2, 2, 2}), part(cad::Kind::box, {9, 0, 0}, {2, 2, 2})};
+  const std::vector<cad::Part> a = {part(cad::Kind::box, {0, 0, 0}, {2, 2, 2}),
+                                    part(cad::Kind::box, {1, 0, 0}, {2, 2, 2})};
+  const std::vector<cad::Part> b = {part(cad::Kind::box, {0, 1, 0}, {2, 2, 2}),
+                                    part(cad::Kind::box, {9, 0, 0}, {2, 2, 2})};
   const Overlap found = overlap(a, b, {true, true});
   CHECK(found.a == doctest::Approx(12));
   CHECK(found.b == doctest::Approx(16));
