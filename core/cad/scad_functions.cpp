@@ -151,7 +151,8 @@ Result<Value> builtin_value(std::string_view function, const Vector& given, cons
     if (is("is_string")) return Value(given[0].string() != nullptr);
     if (is("is_list")) return Value(given[0].vector() != nullptr);
   }
-  if (is("version_num")) return Value(20210100.0);
+  if (is("version_num")) return Value(20210100.0);  // that of Debian 12 and 13
+  if (is("version")) return Value(Vector{Value(2021.0), Value(1.0)});
   for (const std::string_view known :
        {"pow", "atan2", "len", "lookup", "is_undef", "is_num", "is_bool", "is_string", "is_list"}) {
     if (is(known)) return Value();

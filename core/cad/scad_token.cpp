@@ -147,12 +147,17 @@ class Reader {
 
   Status number(Token& token) {
     token.kind = Token::Kind::number;
+    std::size_t name_end = at_;
+    while (name_end < text_.size() && (is_letter(text_[name_end]) || is_digit(text_[name_end]))) ++name_end;
     const char* begin = text_.data() + at_;
     const auto [end, problem] = std::from_chars(begin, text_.data() + text_.size(), token.number);
     at_ += static_cast<std::size_t>(end - begin);
     if (problem != std::errc()) return refusal(token.place, "the number is too large", "write a smaller number");
-    if (is_letter(peek())) {
-      return refusal(token.place, "a letter follows a number", "put a blank or an operator between them");
+    if (is_letter(peek()) && at_ < name_end) {  // OpenSCAD's names may begin with digits: 3d_text
+      token.kind = Token::Kind::name;
+      token.text = text_.substr(static_cast<std::size_t>(begin - text_.data()),
+                                name_end - static_cast<std::size_t>(begin - text_.data()));
+      at_ = name_end;
     }
     return success();
   }

@@ -120,6 +120,8 @@ TEST_CASE("cad: variables, functions, modules, loops, conditions and children") 
   CHECK(read("for (i = [0 : 0.1 : 1]) translate([i * 30, 0, 0]) cube(1);").parts.size() == 11);
   CHECK(read("*cube(1); %cube(2); #cube(3);").parts.size() == 1);
   CHECK(read("cube(1); !translate([5, 0, 0]) cube(2); cube(3);").parts[0].size.x() == 2);
+  check_box("module 2legs() cube(3); 2legs();", {1.5, 1.5, 1.5}, {3, 3, 3});
+  check_box("cube(1e0 + version()[1]);", {1, 1, 1}, {2, 2, 2});
   const Model model = read("/* long\n story */ echo(a = 1 + 1, \"b\", [1, [2]]); cube(1); // end");
   REQUIRE(model.echoes.size() == 1);
   CHECK(model.echoes[0].text == "a = 2, b, [1, [2]]");

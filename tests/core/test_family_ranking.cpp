@@ -114,7 +114,6 @@ TEST_CASE("ranking: one percent of noise on the chair loses and adds little") {
       for (std::size_t i = 0; i < end; ++i) right += is_in(expert, ranking.order[i]);
       for (const std::size_t i : experts) met += is_in(found, i);
       const double p = double(right) / double(end), r = double(met) / double(experts.size());
-      MESSAGE("seed ", seed, ": ", end, " kept, precision ", p, ", recall ", r);
       precision += p / seeds;
       recall += r / seeds;
     }
