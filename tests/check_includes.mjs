@@ -30,8 +30,8 @@ const rooms = {
     rule: 'infer speaks to language models about shapes and edits; of the search it knows the request alone',
   },
   cad: {
-    may: ['base', 'shape/label.h', 'gallery/glb_writer.h'],
-    rule: 'cad reads and writes CAD programs; of shape it knows the names of parts, of the gallery what writes a GLB',
+    may: ['base', 'amount/number.h', 'shape/label.h', 'gallery/glb_writer.h'],
+    rule: 'cad reads and writes CAD programs; of amount it knows decimals, of shape the names of parts, of the gallery what writes a GLB',
   },
   family: {
     may: ['base', 'cad', 'edit/program.h'],

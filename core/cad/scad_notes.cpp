@@ -1,8 +1,8 @@
 #include "core/cad/scad_notes.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/base/text.h"
 
@@ -30,11 +30,12 @@ std::vector<double> numbers_in(std::string_view remark) {
   std::vector<double> numbers;
   while (numbers.size() < 4) {
     while (!remark.empty() && remark.front() == ' ') remark.remove_prefix(1);
-    double number = 0;
-    const auto [end, problem] = std::from_chars(remark.data(), remark.data() + remark.size(), number);
-    if (problem != std::errc() || !(std::abs(number) <= Limits::coordinate)) return {};
+    const std::string rest(remark.substr(0, 40));
+    char* end = nullptr;
+    const double number = std::strtod(rest.c_str(), &end);
+    if (end == rest.c_str() || !(std::abs(number) <= Limits::coordinate)) return {};
     numbers.push_back(number);
-    remark.remove_prefix(static_cast<std::size_t>(end - remark.data()));
+    remark.remove_prefix(static_cast<std::size_t>(end - rest.c_str()));
     while (!remark.empty() && remark.front() == ' ') remark.remove_prefix(1);
     if (remark.empty()) return numbers.size() >= 2 && numbers.size() <= 3 ? numbers : std::vector<double>{};
     if (remark.front() != ':') return {};

@@ -87,8 +87,6 @@ class Parser {
     return made;
   }
 
-  // Statements.
-
   void statement_into(Statements& statements) {
     if (accept(";")) return;
     const Level level(*this);
@@ -178,8 +176,6 @@ class Parser {
     }
     return list;
   }
-
-  // Expressions, weakest first.
 
   ExpressionPointer expression() {
     const Level level(*this);

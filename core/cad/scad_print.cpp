@@ -2,8 +2,11 @@
 
 #include <Eigen/Geometry>
 
-#include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/amount/number.h"
 
 namespace parsel::cad {
 
@@ -85,10 +88,13 @@ void tree_into(const Model& model, const Node& node, const std::string& indent,
 
 std::string decimal(double value) {
   if (value == 0) return "0";  // and no negative zero
-  char text[32];
-  const auto [end, problem] = std::to_chars(text, text + sizeof text, value);
-  PARSEL_ASSERT(problem == std::errc(), "a double fits 32 characters");
-  return std::string(text, end);
+  const double size = std::abs(value);
+  for (int places = 0; size >= 1e-4 && size < 1e15 && places <= 17; ++places) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.*f", places, value);
+    if (std::strtod(text, nullptr) == value) return text;
+  }
+  return shortest_decimal(value);
 }
 
 PartText literal_text(const Part& part) {

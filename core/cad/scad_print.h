@@ -8,7 +8,7 @@
 
 namespace parsel::cad {
 
-/// The shortest decimal that reads back to the same double.
+/// The shortest decimal that reads back to the same double, with an exponent only below 1e-4 and from 1e15.
 std::string decimal(double value);
 
 /// A part's quantities as text: literals, or expressions of a family's variables. Axes are ours.

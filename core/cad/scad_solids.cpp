@@ -119,7 +119,7 @@ Map read_rotation(const CallArguments& given) {
       map.linear = turn(degrees, 2);
       return map;
     }
-    if (!(about->value.norm() > 0)) given.refuse("its axis has no length", "give it another axis");
+    if (!(about->value.norm() > 0)) return map;  // as OpenSCAD has it
     for (int axis = 0; axis < 3; ++axis) {
       if (about->value[axis] != 0 && about->value.cwiseAbs().sum() == std::abs(about->value[axis])) {
         map.linear = turn(about->value[axis] > 0 ? degrees : -degrees, axis);

@@ -1,6 +1,7 @@
 #include "core/cad/scad_token.h"
 
-#include <charconv>
+#include <cmath>
+#include <cstdlib>
 
 #include "core/base/text.h"
 
@@ -146,19 +147,30 @@ class Reader {
   }
 
   Status number(Token& token) {
-    token.kind = Token::Kind::number;
+    const std::size_t begin = at_;
     std::size_t name_end = at_;
-    while (name_end < text_.size() && (is_letter(text_[name_end]) || is_digit(text_[name_end]))) ++name_end;
-    const char* begin = text_.data() + at_;
-    const auto [end, problem] = std::from_chars(begin, text_.data() + text_.size(), token.number);
-    at_ += static_cast<std::size_t>(end - begin);
-    if (problem != std::errc()) return refusal(token.place, "the number is too large", "write a smaller number");
+    while (is_letter(peek(name_end - at_)) || is_digit(peek(name_end - at_))) ++name_end;
+    const auto digits = [&] {
+      while (is_digit(peek())) ++at_;
+    };
+    digits();
+    if (peek() == '.') ++at_;
+    digits();
+    if (peek() == 'e' || peek() == 'E') {
+      const std::size_t sign = peek(1) == '+' || peek(1) == '-' ? 1 : 0;
+      if (is_digit(peek(1 + sign))) {
+        at_ += 1 + sign;
+        digits();
+      }
+    }
+    token.kind = Token::Kind::number;
     if (is_letter(peek()) && at_ < name_end) {  // OpenSCAD's names may begin with digits: 3d_text
       token.kind = Token::Kind::name;
-      token.text = text_.substr(static_cast<std::size_t>(begin - text_.data()),
-                                name_end - static_cast<std::size_t>(begin - text_.data()));
       at_ = name_end;
     }
+    token.text = text_.substr(begin, at_ - begin);
+    if (token.kind == Token::Kind::number) token.number = std::strtod(token.text.c_str(), nullptr);
+    if (!std::isfinite(token.number)) return refusal(token.place, "the number is too large", "write a smaller number");
     return success();
   }
 

@@ -48,8 +48,10 @@ int run(const Arguments& arguments) {
     options.selection = family::Selection::ranking;
   } else if (select == "ranking_by_derivative") {
     options.selection = family::Selection::ranking_by_derivative;
+  } else if (select == "none") {
+    options.selection = family::Selection::none;
   } else if (select != "agreement") {
-    return misuse("--select is agreement, ranking or ranking_by_derivative");
+    return misuse("--select is agreement, ranking, ranking_by_derivative or none");
   }
   for (const auto& [name, value] : arguments.options) {
     if (name == "--keep") options.choices[value] = family::Choice::forced;
@@ -83,7 +85,7 @@ extern const Command family_command;
 const Command family_command = {
     "family",
     "PROGRAM.scad|.csg|.json --variations V.json [-o FAMILY.json] [--program P.json] [--scad OUT.scad] [--sets S.json] "
-    "[--vocabulary paper|extended] [--select agreement|ranking|ranking_by_derivative] [--keep ID] [--drop ID]",
+    "[--vocabulary paper|extended] [--select agreement|ranking|ranking_by_derivative|none] [--keep ID] [--drop ID]",
     "Finds what the variations of a CAD program share and which sliders are left; writes them as a family, as an "
     "editing "
     "program, and as OpenSCAD with its Customizer's parameter sets.",

@@ -30,14 +30,16 @@ Status check_choices(const Options& options, const std::vector<Constraint>& cons
   return success();
 }
 
-void select_by_ranking(Family& family) {
-  const Ranking ranking =
-      rank_constraints(family.model, family.layout, family.base, family.constraints, family.variations);
-  const std::size_t end = family.options.selection == Selection::ranking ? cutoff_by_mean(ranking.losses)
-                                                                         : cutoff_by_derivative(ranking.losses);
+/// Keeps what the options' selection says instead of what agrees; choices count all the same.
+void select_otherwise(Family& family) {
   for (Evidence& evidence : family.evidence) evidence.is_kept = false;
-  for (std::size_t i = 0; i < std::min(end, ranking.order.size()); ++i)
-    family.evidence[ranking.order[i]].is_kept = true;
+  if (family.options.selection != Selection::none) {
+    const Ranking ranking =
+        rank_constraints(family.model, family.layout, family.base, family.constraints, family.variations);
+    const std::size_t end = family.options.selection == Selection::ranking ? cutoff_by_mean(ranking.losses)
+                                                                           : cutoff_by_derivative(ranking.losses);
+    for (std::size_t i = 0; i < end; ++i) family.evidence[ranking.order[i]].is_kept = true;
+  }
   for (std::size_t i = 0; i < family.constraints.size(); ++i) {
     const auto choice = family.options.choices.find(family.constraints[i].id());
     if (choice != family.options.choices.end()) family.evidence[i].is_kept = choice->second == Choice::forced;
@@ -89,7 +91,7 @@ Result<Family> make_family(const cad::Model& model, std::vector<Variation> varia
   if (const Status known = check_choices(options, family.constraints); !known) return known.error();
   family.base_rank = rank_of(family.constraints, family.layout.size());
   family.evidence = find_agreement(family.constraints, family.variations, family.tolerance, options.choices);
-  if (options.selection != Selection::agreement) select_by_ranking(family);
+  if (options.selection != Selection::agreement) select_otherwise(family);
   family.independent = independent(family.constraints, family.evidence, family.layout.size());
 
   family.pins = find_pins(family.layout, model, family.constraints, family.evidence, family.variations);

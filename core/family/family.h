@@ -17,8 +17,8 @@
 namespace parsel::family {
 
 /// How constraints are selected: those that hold in all variations, or the paper's greedy ranking, cut off by either of
-/// its two rules (ranking.h).
-enum class Selection { agreement, ranking, ranking_by_derivative };
+/// its two rules (ranking.h), or none at all, the paper's ablation "no constraints".
+enum class Selection { agreement, ranking, ranking_by_derivative, none };
 
 struct Options {
   Vocabulary vocabulary = Vocabulary::paper;

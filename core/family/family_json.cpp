@@ -79,7 +79,7 @@ std::string stop_text(const Family& family, const Stop& stop) {
 Json to_json(const Family& family) {
   std::size_t kept = 0;
   for (const Evidence& evidence : family.evidence) kept += evidence.is_kept;
-  constexpr const char* selections[] = {"agreement", "ranking", "ranking_by_derivative"};
+  constexpr const char* selections[] = {"agreement", "ranking", "ranking_by_derivative", "none"};
   Json json = {{"format", "parsel/family"},
                {"version", 1},
                {"name", family.model.name},

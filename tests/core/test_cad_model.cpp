@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/base/random.h"
 #include "core/cad/cad_mesh.h"
 #include "core/cad/scad_flatten.h"
 #include "core/shape/abstraction.h"
@@ -87,6 +88,46 @@ TEST_CASE("cad: text to JSON to text is byte-equal, and so is JSON to JSON") {
   CHECK(to_json(*back).dump() == json);
   CHECK(to_scad(*back) == text);
   check_same(model, *back);
+}
+
+TEST_CASE("cad: numbers are written as people write them") {
+  const std::string text = to_scad(model_of("translate([410, 0.1, -1e-5]) cube([1500, 0.25, 1 / 3]);"));
+  CHECK(text.find("translate([1160, 0.225, 0.166656666667]) cube([1500, 0.25, 0.333333333333], center = true);") !=
+        std::string::npos);
+}
+
+TEST_CASE("cad: programs that are damaged at random are read or refused, and what is read can be written") {
+  Random random(11);
+  std::size_t read = 0;
+  for (int k = 0; k < 3000; ++k) {
+    std::string text(everything);
+    for (std::uint64_t changes = 1 + random.below(4); changes > 0; --changes) {
+      const std::size_t at = random.below(text.size()), length = random.below(12);
+      const std::string other = text.substr(random.below(text.size()), random.below(20));
+      switch (random.below(3)) {
+        case 0:
+          text.erase(at, length);
+          break;
+        case 1:
+          text.insert(at, other);
+          break;
+        default:
+          text[at] = static_cast<char>(random.below(256));
+      }
+    }
+    const Result<Model> model = read_scad(text, "damaged");
+    if (!model.ok()) {
+      CHECK_FALSE(model.error().cause.empty());
+      continue;
+    }
+    ++read;
+    const Result<Model> again = model_from_json(to_json(*model));
+    REQUIRE_MESSAGE(again.ok(), (again.ok() ? "" : again.error().message() + "\n" + text));
+    const Result<Model> flat = read_scad(to_scad(*model), "flat");
+    REQUIRE_MESSAGE(flat.ok(), (flat.ok() ? "" : flat.error().message() + "\n" + to_scad(*model)));
+    CHECK(to_scad(*flat) == to_scad(*model));
+  }
+  CHECK(read > 50);
 }
 
 TEST_CASE("cad: ReparamCAD's programs go through text and JSON") {

@@ -61,6 +61,7 @@ TEST_CASE("cad: solids and transformations along the axes") {
   check_box("rotate([0, 0, 90]) cube([2, 3, 4]);", {-1.5, 1, 2}, {3, 2, 4});
   check_box("rotate(a = -90, v = [1, 0, 0]) cube([2, 3, 4]);", {1, 2, -1.5}, {2, 4, 3});
   check_box("rotate([90, 90, 0]) cube([2, 3, 4]);", {1.5, -2, -1}, {3, 4, 2});
+  check_box("rotate(90, [0, 0, 0]) cube([2, 3, 4]);", {1, 1.5, 2}, {2, 3, 4});
   check_box("mirror([1, 0, 0]) cube([2, 3, 4]);", {-1, 1.5, 2}, {2, 3, 4});
   check_box("multmatrix([[1, 0, 0, 5], [0, 2, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) cube(1);", {5.5, 1, 0.5}, {1, 2, 1});
   check_box("cylinder(h = 4, r = 1);", {0, 0, 2}, {2, 2, 4});

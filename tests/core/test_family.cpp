@@ -80,6 +80,23 @@ TEST_CASE("family: the numbers of ReparamCAD's programs, all at once") {
   }
 }
 
+TEST_CASE("family: the paper's selection and its two ablations") {
+  for (const test::FamilyCase& one : test::family_cases()) {
+    CAPTURE(one.name);
+    const nlohmann::json& wanted = one.expected["votes"][0]["greedy_constraints_and_dimensions"];
+    const auto dimensions = [&](family::Selection selection) {
+      return family_of(one, {Vocabulary::paper, selection, 1e-6, {}}).dimensions();
+    };
+    CHECK(dimensions(family::Selection::ranking) == wanted["mean_shift_of_loss"][1]);
+    CHECK(dimensions(family::Selection::ranking_by_derivative) == wanted["mean_shift_of_derivative"][1]);
+    CHECK(dimensions(family::Selection::none) == one.expected["table1"]["parameters"]);
+    const Result<Family> base_alone = make_family(one.model, {});
+    REQUIRE(base_alone.ok());
+    CHECK(base_alone->dimensions() == one.expected["holding"]["null_space"]);
+    CHECK_FALSE(base_alone->warnings.empty());
+  }
+}
+
 TEST_CASE("family: sliders are sizes that people name") {
   for (const test::FamilyCase& one : test::family_cases()) {
     const std::set<std::string> names = names_of(family_of(one));
