@@ -28,12 +28,14 @@ const library = (entry, external, output = {}) => ({
 });
 const source = (file) => join(here, 'src', file);
 await build(
-  library({ index: source('index.ts'), three: source('three.ts'), viewer: source('viewer/index.ts') }, isThree),
+  library({ index: source('index.ts'), three: source('three/index.ts'), viewer: source('viewer/index.ts') }, isThree),
 );
 await build(library({ 'viewer.standalone': source('viewer/index.ts') }, [], { codeSplitting: false }));
 
 execFileSync(process.execPath, [join(here, '../node_modules/typescript/bin/tsc'), '-p', here], { stdio: 'inherit' });
-keepReachable(['index.d.ts', 'three.d.ts', 'viewer/index.d.ts'].map((file) => join(dist, 'types/runtime/src', file)));
+keepReachable(
+  ['index.d.ts', 'three/index.d.ts', 'viewer/index.d.ts'].map((file) => join(dist, 'types/runtime/src', file)),
+);
 copyFileSync(join(here, '../../LICENSE'), join(here, 'LICENSE'));
 writeFileSync(join(here, 'NOTICES.txt'), notices(['valibot', 'three', 'camera-controls']));
 

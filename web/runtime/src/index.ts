@@ -1,4 +1,4 @@
-// What `import … from 'parsel-runtime'` gives: programs without three.js and without WebAssembly.
+// The entry `parsel-runtime`: programs without three.js and without WebAssembly.
 export type { GroupView } from '../../src/program/compile';
 export type {
   CagePart,

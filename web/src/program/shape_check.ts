@@ -18,13 +18,14 @@ const format: Format = { stage: 'program/shape', what: 'shape', name: 'parsel/sh
 const unitSlack = 1e-6;
 
 const name = v.pipe(v.string(), v.minLength(1), v.maxBytes(limits.nameLength));
-const index = v.pipe(v.number(), v.integer(), v.minValue(0));
+/** -1 for virtual parts, which have no mesh. */
+const index = v.pipe(v.number(), v.integer(), v.minValue(-1));
 const positive = v.pipe(v.number(), v.finite(), v.minValue(Number.MIN_VALUE));
 const axis = v.picklist([0, 1, 2]);
 
 const part = v.object({
   id: name,
-  node: v.pipe(v.number(), v.integer(), v.minValue(-1)),
+  node: index,
   primitive: index,
   corners: v.strictTuple([vector, vector, vector, vector, vector, vector, vector, vector]),
   virtual: v.boolean(),

@@ -1,4 +1,4 @@
-// What `import 'parsel-runtime/viewer'` does: defines <parsel-viewer>.
+// The entry `parsel-runtime/viewer`: defines <parsel-viewer>.
 import { ParselViewer } from './element';
 
 export { ParselError } from '../error';

@@ -1,8 +1,8 @@
 // Whether meshes are those that a program was made on.
 import * as three from 'three';
-import type { CagePart, CageShape } from '../../src/program/types';
-import type { ModelView } from '../../src/scene/model_view';
-import { ParselError } from './error';
+import type { CagePart, CageShape } from '../../../src/program/types';
+import type { ModelView } from '../../../src/scene/model_view';
+import { ParselError } from '../error';
 
 /** A mesh may stick out of its hexahedron by this, and fills it at least so far along one axis; local coordinates. */
 const mostOutside = 0.05;

@@ -1,23 +1,23 @@
-// What `import … from 'parsel-runtime/three'` gives: a scene that GLTFLoader has read follows sliders where it stands.
+// The entry `parsel-runtime/three`: a scene that GLTFLoader has read follows sliders where it stands.
 //
 // The same code as the page's (src/scene): corners go to a small texture, and the vertex shader does the rest. Each mesh of
 // a part gets an empty geometry, and a twin draws it under the scene's root, so that the objects of the scene keep their
 // names, places and children.
 import * as three from 'three';
 import type { GLTF } from 'three/examples/jsm/loaders/GLTFLoader.js';
-import { slidersInJson } from '../../src/program/embedded';
-import type { CageShape } from '../../src/program/types';
-import { collect, type LoadedMesh, type LoadedModel } from '../../src/scene/meshes';
-import { ModelView } from '../../src/scene/model_view';
-import { isLoaded } from './embed';
-import { ParselError, unwrap } from './error';
+import { slidersInJson } from '../../../src/program/embedded';
+import type { CageShape } from '../../../src/program/types';
+import { collect, type LoadedMesh, type LoadedModel } from '../../../src/scene/meshes';
+import { ModelView } from '../../../src/scene/model_view';
+import { isLoaded } from '../embed';
+import { ParselError, unwrap } from '../error';
+import { compile, type Evaluate, type LoadedProgram, loadProgram, ofSliders, type SliderParameter } from '../program';
+import { SliderValues } from '../values';
 import { misfitOf } from './fit';
-import { compile, type Evaluate, type LoadedProgram, loadProgram, ofSliders, type SliderParameter } from './program';
 import { solidify } from './solid';
-import { SliderValues } from './values';
 
-export { ParselError } from './error';
-export type { LoadedProgram, SliderParameter } from './program';
+export { ParselError } from '../error';
+export type { LoadedProgram, SliderParameter } from '../program';
 
 /** What attachSliders() needs of what GLTFLoader gives. */
 export type LoadedGltf = Pick<GLTF, 'scene' | 'parser'>;

@@ -1,7 +1,7 @@
 // What the processor is asked about a mesh that the graphics card deforms: its bounds, and what a ray hits. Computed when
 // asked for, from the corners that the card has.
 import * as three from 'three';
-import { type CageTexture, trilinear } from '../../src/scene/cage';
+import { type CageTexture, trilinear } from '../../../src/scene/cage';
 
 type Twin = three.Mesh<three.InstancedBufferGeometry>;
 
