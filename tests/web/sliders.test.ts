@@ -184,7 +184,7 @@ describe('sliders in a GLB', () => {
     expect(value(slidersIn(glb))).toBe(null);
   });
 
-  it('leave any JSON as it was', () => {
+  it('leave any JSON as it was', { timeout: 60_000 }, () => {
     const objects = fc.dictionary(fc.string(), fc.jsonValue());
     const roots = fc
       .tuple(objects, fc.option(objects), fc.constantFrom(undefined, 1, '\t'))
