@@ -126,8 +126,28 @@ export interface Shape {
   readonly warnings: readonly { readonly place: string; readonly text: string }[];
 }
 
-export function isGroup(relation: ShapeRelation): relation is GroupRelation {
-  return relation.kind === 'translation' || relation.kind === 'rotation';
+/** A part as evaluation and drawing see it: its hexahedron, and the mesh that rides in it. */
+export type CagePart = Pick<ShapePart, 'id' | 'node' | 'primitive' | 'corners' | 'virtual'>;
+/** A relation of which no more is known than what it is about. */
+export interface NamedRelation extends RelationBase {
+  readonly kind: string;
+}
+export type CageRelation = ShapeRelation | NamedRelation;
+
+/** What evaluating a program and drawing the result need of a shape, and what travels with a program (sliders.ts). */
+export interface CageShape extends Pick<Shape, 'name' | 'sha256' | 'frame'> {
+  readonly parts: readonly CagePart[];
+  readonly relations: readonly CageRelation[];
+}
+
+export function isGroup(relation: CageRelation): relation is GroupRelation {
+  return 'parent' in relation && (relation.kind === 'translation' || relation.kind === 'rotation');
+}
+export function isReflection(relation: CageRelation): relation is ReflectionRelation {
+  return 'normal' in relation && relation.kind === 'reflection';
+}
+export function isAttachment(relation: CageRelation): relation is AttachmentRelation {
+  return 'points' in relation;
 }
 
 // -------------------------------------------------------------------------------------------------- parsel/program

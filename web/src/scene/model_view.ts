@@ -1,11 +1,11 @@
 // A model in the scene: every part is one instanced draw of its own mesh, whose vertices follow the cage. When the count
 // of a group changes, one member's mesh is drawn once an instance and the other members rest.
 import * as three from 'three';
-import { isGroup, type Shape } from '../program/types';
+import { type CageShape, isGroup } from '../program/types';
 import { CageTexture, localFrame } from './cage';
 import { depthMaterial, followCage } from './cage_material';
 import type { State } from './explode';
-import type { LoadedMesh, LoadedModel } from './load';
+import type { LoadedMesh, LoadedModel } from './meshes';
 
 /** Display colour, 0 … 1, and how much of it. */
 export type Tint = readonly [red: number, green: number, blue: number, strength: number];
@@ -36,7 +36,7 @@ export class ModelView {
   readonly #hidden: boolean[];
 
   constructor(
-    readonly shape: Shape,
+    readonly shape: CageShape,
     readonly loaded: LoadedModel,
   ) {
     this.cage = new CageTexture(shape);
