@@ -39,7 +39,20 @@ const rooms = {
   },
   gallery: { may: ['base', 'shape/shape.h'], rule: 'gallery generates models; of shape it knows the type alone' },
   cli: {
-    may: ['base', 'gltf', 'shape', 'edit', 'export', 'prove', 'propagate', 'check', 'infer', 'gallery', 'cad', 'family'],
+    may: [
+      'base',
+      'gltf',
+      'shape',
+      'edit',
+      'export',
+      'prove',
+      'propagate',
+      'check',
+      'infer',
+      'gallery',
+      'cad',
+      'family',
+    ],
     rule: 'cli is a leaf: commands call rooms',
   },
 };

@@ -95,7 +95,15 @@ describe('outputs of CAD programs', () => {
       expect(read('sliders.json').layers.length).toBe(sliders.length);
       expect(Object.keys(read('sets.json').parameterSets).length).toBe(read(variations).variations.length);
       accepted('evaluate', 'shape.json', 'sliders.json', '-o', 'state.json');
-      accepted('apply', 'cad.glb', 'sliders.json', '--set', `x1=${read('sliders.json').layers[0].parameter.max}`, '-o', 'moved.glb');
+      accepted(
+        'apply',
+        'cad.glb',
+        'sliders.json',
+        '--set',
+        `x1=${read('sliders.json').layers[0].parameter.max}`,
+        '-o',
+        'moved.glb',
+      );
       accepted('convert', 'sliders.json', '-o', 'sliders.txt');
       accepted('cad', 'family.scad', '-o', 'cad-base.json');
       expect(read('cad-base.json').parts.length).toBe(read('cad.json').parts.length);

@@ -48,7 +48,18 @@ function unpack(glb: string, gltf: string, bin: string) {
 describe('parsel', () => {
   it('lists its commands and tells its version', () => {
     const help = run('--help');
-    for (const command of ['inspect', 'propagate', 'apply', 'check', 'score', 'convert', 'evaluate', 'cad', 'family', 'gallery'])
+    for (const command of [
+      'inspect',
+      'propagate',
+      'apply',
+      'check',
+      'score',
+      'convert',
+      'evaluate',
+      'cad',
+      'family',
+      'gallery',
+    ])
       expect(help).toContain(`parsel ${command}`);
     expect(run('--version')).toMatch(/\d+\.\d+\.\d+/);
   });
