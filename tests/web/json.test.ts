@@ -50,6 +50,7 @@ describe('JSON from outside', () => {
     const src = fileURLToPath(new URL('../../web/src', import.meta.url));
     // Of these, JSON.parse reads what the page has written itself, or what has passed the gate before.
     const own = [
+      'program/embedded.ts', // one key, of a text that has passed
       'program/json.ts',
       'program/text_parse.ts', // one token, a text
       'llm/settings.ts',
@@ -58,7 +59,9 @@ describe('JSON from outside', () => {
       'worker/client.ts', // the core's replies
       'worker/decompress.ts', // files.ts has read it before
     ];
-    const parsing = readdirSync(src, { recursive: true, encoding: 'utf8' })
+    const runtime = '../runtime/src';
+    const pathsIn = (folder: string) => readdirSync(join(src, folder), { recursive: true, encoding: 'utf8' });
+    const parsing = [...pathsIn(''), ...pathsIn(runtime).map((path) => join(runtime, path))]
       .filter((path) => /\.tsx?$/.test(path))
       .filter((path) => /JSON\.parse\(|\.json\(\)/.test(readFileSync(join(src, path), 'utf8')));
     const fetched = ['llm/recordings.ts', 'session/gallery.ts']; // the page's own files, beside it

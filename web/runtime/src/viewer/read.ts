@@ -1,5 +1,6 @@
 // From the addresses in the element's attributes to a model and its program.
 import { slidersIn, withoutSliders } from '../../../src/program/embedded';
+import { parseJson } from '../../../src/program/json';
 import { loadModel } from '../../../src/scene/load';
 import type { LoadedModel } from '../../../src/scene/meshes';
 import { ParselError, unwrap } from '../error';
@@ -30,7 +31,7 @@ export async function read({ src, program, shape }: Sources, signal: AbortSignal
     shape === null ? null : textOf(shape, signal),
   ]);
   const own = programText === null ? embedded(glb, src) : loadProgram(programText);
-  const evaluate = compile(own, shapeText === null ? own.shape : JSON.parse(shapeText));
+  const evaluate = compile(own, shapeText === null ? own.shape : unwrap(parseJson(shapeText)));
   const main = unwrap(withoutSliders(glb)); // three need not carry them about
   const loaded = await loadModel({ name: src, main, external: new Map() }).catch((error: unknown) => {
     const cause = error instanceof Error ? error.message : String(error);
