@@ -10,6 +10,7 @@ import {
   isGroup,
   type ProgramError,
   type Result,
+  type Vec3,
 } from './types';
 
 const format: Format = { stage: 'program/shape', what: 'shape', name: 'parsel/shape' };
@@ -63,12 +64,28 @@ const relation: v.GenericSchema<unknown, CageRelation> = v.lazy((input) => {
   return kind === 'translation' ? translation : kind === 'rotation' ? rotation : other;
 });
 
+/** Three unit vectors, each at right angles to the others, right-handed. */
+function areTurned([x, y, z]: readonly [Vec3, Vec3, Vec3]): boolean {
+  const cross = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+  const isUnit = ([a, b, c]: Vec3) => Math.abs(a * a + b * b + c * c - 1) < 1e-6;
+  return isUnit(x) && isUnit(y) && z.every((value, i) => Math.abs(value - (cross[i] ?? 0)) < 1e-6);
+}
+
+const axes: v.GenericSchema<unknown, readonly [Vec3, Vec3, Vec3]> = v.pipe(
+  v.strictTuple([vector, vector, vector]) as unknown as v.GenericSchema<unknown, readonly [Vec3, Vec3, Vec3]>,
+  v.check(areTurned, 'Invalid axes: Expected a rotation'),
+);
+
 const shapeSchema: v.GenericSchema<unknown, CageShape> = v.object({
   format: v.exactOptional(v.literal('parsel/shape')),
   version: v.exactOptional(v.literal(1)),
   name: v.pipe(v.string(), v.maxBytes(limits.nameLength)),
   sha256: v.pipe(v.string(), v.regex(/^[0-9a-f]{0,64}$/)),
-  frame: v.object({ centre: vector, scale: positive }),
+  frame: v.object({
+    centre: vector,
+    scale: positive,
+    axes: v.exactOptional(axes),
+  }),
   parts: v.array(part),
   relations: v.array(relation),
 });

@@ -173,7 +173,7 @@ export class ModelView {
 }
 
 /** From the file's axes to the model's own. */
-function turnedOnto(axes: Shape['frame']['axes']): three.Matrix4 {
+function turnedOnto(axes: CageShape['frame']['axes']): three.Matrix4 {
   const turn = new three.Matrix4();
   if (axes === undefined) return turn;
   const [x, y, z] = axes;
