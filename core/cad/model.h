@@ -92,9 +92,9 @@ struct Limits {
   static constexpr std::size_t bytes = std::size_t{1} << 20;  ///< of source text: 2,000 parts take 0.2 MB
   static constexpr std::size_t parts = 2'000;                 ///< as many as a shape
   static constexpr std::size_t steps = 500'000;               ///< of the interpreter: well under a second
-  static constexpr std::size_t depth = 1'000;                 ///< nested calls and expressions, for the stack's sake
-  static constexpr std::size_t nesting = 300;                 ///< of brackets, statements and operators in the text
-  static constexpr std::size_t notices = 100;                 ///< kept echoes, and kept warnings
+  static constexpr std::size_t depth = 600;    ///< nested expressions; a statement counts as five, for the stack's sake
+  static constexpr std::size_t nesting = 300;  ///< of brackets, statements and operators in the text
+  static constexpr std::size_t notices = 100;  ///< kept echoes, and kept warnings
   static constexpr double coordinate = 1e6;
 };
 

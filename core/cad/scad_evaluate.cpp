@@ -44,9 +44,11 @@ Definition Evaluator::find_module(const Scope& scope, const std::string& name) {
   return {};
 }
 
-Evaluator::Level::Level(Evaluator& evaluator, const Place& place) : evaluator_(evaluator) {
-  if (++evaluator_.depth_ > Limits::depth) {
-    --evaluator_.depth_;
+Evaluator::Level::Level(Evaluator& evaluator, const Place& place, std::size_t cost)
+    : evaluator_(evaluator), cost_(cost) {
+  evaluator_.depth_ += cost;
+  if (evaluator_.depth_ > Limits::depth) {
+    evaluator_.depth_ -= cost;
     refuse(place, "calls are nested deeper than " + std::to_string(Limits::depth) + " levels",
            "end the recursion by a condition");
   }

@@ -72,16 +72,17 @@ class Evaluator {
     std::size_t size_;
   };
 
-  /// One more level of calls or expressions.
+  /// One more level of expressions, or of statements, which take more of the stack.
   class Level {
    public:
-    Level(Evaluator& evaluator, const Place& place);
-    ~Level() { --evaluator_.depth_; }
+    Level(Evaluator& evaluator, const Place& place, std::size_t cost = 1);
+    ~Level() { evaluator_.depth_ -= cost_; }
     Level(const Level&) = delete;
     Level& operator=(const Level&) = delete;
 
    private:
     Evaluator& evaluator_;
+    std::size_t cost_;
   };
 
  private:

@@ -92,7 +92,8 @@ class Flattener {
   }
 
   Node run_statement(const Statement& statement, const Scope& scope, const Surroundings& outer) {
-    const Evaluator::Level level(evaluator_, statement.place);
+    constexpr std::size_t cost = 5;
+    const Evaluator::Level level(evaluator_, statement.place, cost);
     evaluator_.step(statement.place);
     Surroundings around = outer;
     if (const std::string label = label_from_note(statement.note); !label.empty()) around.label = label;
