@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/base/tolerance.h"
 #include "core/family/volume.h"
@@ -49,7 +50,7 @@ class Moving {
     weigh();
     chosen_ = chosen;
     spread_ = chosen * mobility_.asDiagonal();
-    if (chosen.rows() > 0) factor_.compute(spread_ * chosen.transpose());
+    if (chosen.rows() > 0) factor_.emplace(spread_ * chosen.transpose());
   }
 
   /// Where the rows of one more constraint would take it; nothing to do gives the same values.
@@ -57,7 +58,7 @@ class Moving {
     const Eigen::VectorXd residual = rows * now_;
     if (residual.cwiseAbs().maxCoeff() < 1e-13) return now_;
     Matrix tilted = rows * mobility_.asDiagonal();
-    if (chosen_.rows() > 0) tilted -= (factor_.solve(spread_ * rows.transpose())).transpose() * spread_;
+    if (chosen_.rows() > 0) tilted -= (factor_->solve(spread_ * rows.transpose())).transpose() * spread_;
     const Eigen::SelfAdjointEigenSolver<Matrix> gram(tilted * rows.transpose());
     const double largest = gram.eigenvalues().cwiseAbs().maxCoeff();
     Eigen::VectorXd multipliers = gram.eigenvectors().transpose() * residual;
@@ -111,7 +112,7 @@ class Moving {
   Values original_, now_;
   Eigen::VectorXd mobility_;
   Matrix chosen_, spread_;
-  Eigen::LDLT<Matrix> factor_;
+  std::optional<Eigen::LDLT<Matrix>> factor_;  ///< while something is chosen
 };
 
 /// Where one change of the mean leaves the least squares: the first index of the second half. Either half has two values
