@@ -8,6 +8,7 @@ describe('an import', () => {
     ['program/schema.ts', "import * as v from 'valibot';"],
     ['llm/http.ts', "import { parseJson } from '../program/json';"],
     ['session/files.ts', "  const { unzip } = await import('fflate');"],
+    ['worker/convert.worker.ts', "import { convert } from '../formats/convert';"],
     ['main.tsx', "import { App } from './ui/App';"],
   ])('that the room of %s may make passes: %s', (file, line) => {
     expect(importFaults(file, line)).toEqual([]);
@@ -18,6 +19,7 @@ describe('an import', () => {
     ['program/parse.ts', "import type { Document } from '../session/document';", /program reads/],
     ['scene/stage.ts', "import { document } from '../session/session';", /scene draws what it is given/],
     ['llm/http.ts', "import { parse } from '../program/parse';", /llm asks language models/],
+    ['formats/obj.ts', "import { loadModel } from '../scene/load';", /formats makes a GLB/],
     ['session/files.ts', "import { render } from 'preact';", /without a single element/],
     ['ui/App.tsx', "import { get } from 'idb-keyval';", /done in their rooms/],
     ['ui/App.tsx', "  await import('fflate');", /done in their rooms/],

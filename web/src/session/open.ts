@@ -2,6 +2,7 @@
 import { computed, signal } from '@preact/signals';
 import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
 import { lostWords, type Saved, type Work } from '../share/saved';
+import { converted } from './convert';
 import { decompressed } from './decompress';
 import {
   type Document,
@@ -13,7 +14,7 @@ import {
   type OpenModel,
 } from './document';
 import { misfit } from './evaluation';
-import { addressOf, type FileSet, modelOf, readUrl } from './files';
+import { addressOf, type FileSet, type FoundFiles, modelOf, readUrl } from './files';
 import { galleryUrl } from './gallery';
 import type { ModelCore } from './model_core';
 import { carryOver } from './relabel';
@@ -43,12 +44,12 @@ export const openedView = signal<Saved['view'] | null>(null);
 
 async function abstract(
   core: ModelCore,
-  get: (signal: AbortSignal) => Promise<ModelFiles>,
+  get: (signal: AbortSignal) => Promise<FoundFiles>,
   source: ModelSource,
   labels: Labels,
 ): Promise<OpenModel | null> {
   return run('Reading the model', async (options) => {
-    const files = await decompressed(await get(options.signal), options);
+    const files = await decompressed(await converted(await get(options.signal), options), options);
     const shape = await core.open(files, options, labels);
     prepared.set(files, await loadModel(files));
     options.signal.throwIfAborted();
@@ -68,6 +69,10 @@ function show(model: OpenModel, work: Work | null): boolean {
 /** What a person has to know of a model that was opened, in sentences. */
 function remarksOn({ files, shape }: OpenModel): string {
   const remarks: string[] = [];
+  if (files.converted) {
+    remarks.push(`The file was made a GLB; what you export will be one, no ${files.converted.format}.`);
+    remarks.push(...files.converted.remarks);
+  }
   if (files.decompressed) {
     const { compression, lost } = files.decompressed;
     remarks.push(`The file came compressed with ${compression}; what you export will not be.`);
@@ -95,7 +100,7 @@ function documentOf(model: OpenModel, saved: Saved): Document {
 
 async function openFrom(
   core: ModelCore,
-  get: (signal: AbortSignal) => Promise<ModelFiles>,
+  get: (signal: AbortSignal) => Promise<FoundFiles>,
   source: ModelSource,
   work: Work | null,
 ): Promise<boolean> {
