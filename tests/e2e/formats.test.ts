@@ -1,5 +1,6 @@
 // Files of other formats in the built page: dropped with what belongs to them, edited as a GLB is, and opened again.
 import { readFile } from 'node:fs/promises';
+import { zipSync } from 'fflate';
 import type { Page } from 'playwright-core';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
@@ -134,6 +135,33 @@ describe('a file of another format', () => {
     await expect
       .poll(() => page.getByRole('alert').textContent())
       .toMatch(/is not the file that this work was made on/);
+    expect(complaints).toEqual([]);
+  });
+
+  it('3MF, which is a zip, and PLY by the picker', async () => {
+    const corners = [
+      [0, 0, 0],
+      [50, 0, 0],
+      [0, 50, 0],
+      [0, 0, 50],
+    ].map(([x, y, z]) => `<vertex x="${x}" y="${y}" z="${z}"/>`);
+    const faces = [
+      [0, 2, 1],
+      [0, 1, 3],
+      [1, 2, 3],
+      [0, 3, 2],
+    ];
+    const mesh = `<mesh><vertices>${corners.join('')}</vertices><triangles>${faces
+      .map(([a, b, c]) => `<triangle v1="${a}" v2="${b}" v3="${c}"/>`)
+      .join('')}</triangles></mesh>`;
+    const model = `<model unit="millimeter"><resources><object id="1" name="foot">${mesh}</object></resources><build><item objectid="1"/><item objectid="1" transform="1 0 0 0 1 0 0 0 1 200 0 0"/></build></model>`;
+    await pick(page, [file('feet.3mf', Buffer.from(zipSync({ '3D/3dmodel.model': Buffer.from(model) })))]);
+    await shown();
+    expect(await labels()).toEqual(expect.arrayContaining(['foot', 'foot']));
+    const ply = `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n0 0 1 9 9 9\n${faces.map((face) => `3 ${face.join(' ')}`).join('\n')}\n`;
+    await pick(page, [file('scan.ply', Buffer.from(ply))]);
+    await expect.poll(labels).toEqual(['scan']);
+    await page.waitForFunction(() => parsel.stage()?.isShown());
     expect(complaints).toEqual([]);
   });
 

@@ -9,7 +9,7 @@ const placeholder =
 const longest = 200; // UTF-16 units
 
 /** Whether a name of a file says nothing about what it names. */
-export const isPlaceholder = (name: string): boolean => placeholder.test(name.trim());
+export const isPlaceholder = (name: string): boolean => placeholder.test(name.trim().slice(0, longest));
 
 /** For sentences: no line breaks or other control characters, no more than is read at a glance. */
 export const printable = (text: string): string => shortened(text.replace(/[\p{Cc}\u2028\u2029]+/gu, ' ').trim(), 60);
