@@ -21,10 +21,15 @@ const rooms = {
     packages: ['three', 'camera-controls'],
     rule: 'scene draws what it is given; it knows neither the session nor the core',
   },
+  formats: {
+    may: ['program/cut'],
+    packages: ['three', '@gltf-transform', 'fflate'],
+    rule: 'formats makes a GLB of files of other formats and nothing else; it also runs where there is no page',
+  },
   worker: {
-    may: ['scene/load'],
+    may: ['scene/load', 'formats'],
     packages: ['valibot', 'parsel-module', 'draco3dgltf', 'meshoptimizer', '@gltf-transform'],
-    rule: 'worker is the way to the core and back; of the page it knows the type of a file alone',
+    rule: 'worker is the way to the core and back; of the page it knows the type of a file alone, and what reads files',
   },
   llm: {
     may: ['program/json', 'program/cut', 'worker/protocol'],
@@ -37,7 +42,7 @@ const rooms = {
     rule: 'share writes and reads saved work; of the session it knows the type of the work alone',
   },
   session: {
-    may: ['program', 'scene', 'worker', 'llm', 'share'],
+    may: ['program', 'scene', 'formats', 'worker', 'llm', 'share'],
     packages: ['@preact/signals', 'valibot', 'idb-keyval', 'fflate', 'parsel-module', 'draco3dgltf'],
     rule: 'session is the state of the page and what can be done to it, without a single element of the page',
   },

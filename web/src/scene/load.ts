@@ -13,6 +13,8 @@ export interface ModelFiles {
   readonly external: ReadonlyMap<string, Uint8Array>;
   /** When the file came compressed: with what, and which extensions decompression lost. */
   readonly decompressed?: { readonly compression: string; readonly lost: readonly string[] };
+  /** When the file was of another format: of which ("STL"), and what of it was left out or missing, in sentences. */
+  readonly converted?: { readonly format: string; readonly remarks: readonly string[] };
 }
 
 /** Rejects with an Error whose message is one sentence for people. */

@@ -1,4 +1,6 @@
-// From what a person drops, picks or points at to one model: a .glb, a .gltf with its files, a folder, a zip.
+// From what a person drops, picks or points at to one model: a .glb, a .gltf with its files, a file of another format, a
+// folder, a zip.
+import { type Format, formats } from '../formats/model';
 import { jsonLimits, parseJson } from '../program/json';
 import type { ModelFiles } from '../scene/load';
 
@@ -7,6 +9,12 @@ export const fileLimits = { bytes: 512 * 2 ** 20, entries: 10_000 } as const;
 
 /** Files by path. */
 export type FileSet = ReadonlyMap<string, Uint8Array>;
+
+/** A model among files. */
+export interface FoundFiles extends ModelFiles {
+  /** Of a main file that has to become a GLB first, with its path among the files. */
+  readonly format?: { readonly kind: Format; readonly path: string };
+}
 
 /** Refused, in one sentence for people. */
 export class FileError extends Error {}
@@ -74,8 +82,10 @@ async function walk(roots: readonly FileSystemEntry[]): Promise<FileSet> {
 
 /** What is in a zip, when that is all there is. */
 export async function unpacked(files: FileSet): Promise<FileSet> {
-  const [only] = files.values();
-  return files.size === 1 && only !== undefined && isZip(only) ? unpack(only) : files;
+  const [only] = files;
+  if (files.size !== 1 || only === undefined) return files;
+  const [path, bytes] = only;
+  return isZip(bytes) && extension(path) !== '3mf' ? unpack(bytes) : files; // a 3MF is a zip, and a model
 }
 
 async function unpack(bytes: Uint8Array): Promise<FileSet> {
@@ -106,30 +116,48 @@ export function sessionOf(files: FileSet): Uint8Array | null {
   return null;
 }
 
+/** glTF first: where a folder holds both, it says more. */
+const kinds: readonly string[] = ['glb', 'gltf', ...formats];
+const rank = (path: string) => Math.max(kinds.indexOf(extension(path)), 1);
+const formatOf = (path: string): Format | undefined => formats.find((format) => format === extension(path));
+
+/** Files that a model of another format may name. */
+const companions: readonly string[] = ['mtl', 'png', 'jpg', 'jpeg', 'webp', 'bmp', 'tga', 'gif', 'tif', 'tiff', 'dds'];
+
+/** What the file picker offers. */
+export const pickable = [...kinds, 'bin', ...companions.slice(0, 5), 'zip', 'json'].map((kind) => `.${kind}`).join(',');
+
 /** Whether there is something to open beside a session file. */
 export function hasModel(files: FileSet): boolean {
-  return [...files].some(([path, bytes]) => ['glb', 'gltf'].includes(extension(path)) || isZip(bytes));
+  return [...files].some(([path, bytes]) => kinds.includes(extension(path)) || isZip(bytes));
 }
 
 /** Rejects with a FileError that says what to open instead. */
-export async function modelOf(picked: FileSet): Promise<ModelFiles> {
+export async function modelOf(picked: FileSet): Promise<FoundFiles> {
   const files = await unpacked(picked);
   const candidates = [...files.keys()]
-    .filter((path) => ['glb', 'gltf'].includes(extension(path)))
-    .sort((a, b) => a.split('/').length - b.split('/').length || a.localeCompare(b));
+    .filter((path) => kinds.includes(extension(path)))
+    .sort((a, b) => rank(a) - rank(b) || a.split('/').length - b.split('/').length || a.localeCompare(b));
   const [path] = candidates;
   const main = path === undefined ? undefined : files.get(path);
   if (path === undefined || main === undefined) throw new FileError(unreadable([...files.keys()]));
   const name = baseName(path);
+  const kind = formatOf(path);
+  if (kind !== undefined) {
+    const beside = [...files].filter(([other]) => kind === 'obj' && companions.includes(extension(other)));
+    return { name: plain(name), main, external: new Map(beside), format: { kind, path } };
+  }
   const external = extension(path) === 'gltf' ? externalFiles(path, main, files) : new Map<string, Uint8Array>();
   refuseUnreadable(name, main);
-  return { name: name.replace(/\.[^.]+$/, ''), main, external };
+  return { name: plain(name), main, external };
 }
+
+const plain = (name: string) => name.replace(/\.[^.]+$/, '');
 
 function unreadable(paths: readonly string[]): string {
   const kinds = [...new Set(paths.map(extension).filter(Boolean))].slice(0, 3).map((kind) => `.${kind}`);
   const what = kinds.length > 0 ? `${kinds.join(', ')} cannot be opened here.` : 'There is no model in it.';
-  return `${what} Open a .glb, or a .gltf with its files, a folder or a zip that holds one; Blender exports both.`;
+  return `${what} Open a .glb, a .gltf with its files, an .obj, .3mf, .ply or .stl, or a folder or zip that holds one.`;
 }
 
 /** The JSON of a .gltf or of a .glb's first chunk; null when it is neither. */
@@ -225,5 +253,7 @@ function named(name: string, bytes: Uint8Array): string {
   if (extension(name) !== '' || isZip(bytes)) return name;
   const start = new TextDecoder('latin1').decode(bytes.subarray(0, 64)).trimStart();
   if (start.startsWith('glTF')) return `${name}.glb`;
-  return start.startsWith('{') ? `${name}.gltf` : name;
+  if (start.startsWith('{')) return `${name}.gltf`;
+  if (/^ply\s/.test(start)) return `${name}.ply`;
+  return /^solid\s/.test(start) ? `${name}.stl` : name;
 }

@@ -2,6 +2,7 @@
 import { computed, signal } from '@preact/signals';
 import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
 import { lostWords, type Saved, type Work } from '../share/saved';
+import { converted } from './convert';
 import { decompressed } from './decompress';
 import {
   type Document,
@@ -13,7 +14,7 @@ import {
   type OpenModel,
 } from './document';
 import { misfit } from './evaluation';
-import { addressOf, type FileSet, modelOf, readUrl } from './files';
+import { addressOf, type FileSet, type FoundFiles, modelOf, readUrl } from './files';
 import { galleryUrl } from './gallery';
 import type { ModelCore } from './model_core';
 import { takeSliders } from './one_file';
@@ -56,12 +57,12 @@ interface Opened {
 /** Reads and abstracts a model. Sliders in its file are taken for the work on it where no other is given. */
 async function abstract(
   core: ModelCore,
-  get: (signal: AbortSignal) => Promise<ModelFiles>,
+  get: (signal: AbortSignal) => Promise<FoundFiles>,
   source: ModelSource,
   given: Work | null,
 ): Promise<Opened | null> {
   return run('Reading the model', async (options) => {
-    const taken = takeSliders(await get(options.signal));
+    const taken = takeSliders(await converted(await get(options.signal), options));
     const found = given === null ? taken.found : null;
     const files = await decompressed(taken.files, options);
     let labels = labelsOf(given ?? found?.work ?? null);
@@ -95,6 +96,10 @@ function show(model: OpenModel, work: Work | null): boolean {
 /** What a person has to know of a model that was opened, in sentences. */
 function remarksOn({ files, shape }: OpenModel): string {
   const remarks: string[] = [];
+  if (files.converted) {
+    remarks.push(`The file was made a GLB; what you export will be one, no ${files.converted.format}.`);
+    remarks.push(...files.converted.remarks);
+  }
   if (files.decompressed) {
     const { compression, lost } = files.decompressed;
     remarks.push(`The file came compressed with ${compression}; what you export will not be.`);
@@ -122,7 +127,7 @@ function documentOf(model: OpenModel, saved: Saved): Document {
 
 async function openFrom(
   core: ModelCore,
-  get: (signal: AbortSignal) => Promise<ModelFiles>,
+  get: (signal: AbortSignal) => Promise<FoundFiles>,
   source: ModelSource,
   work: Work | null,
 ): Promise<boolean> {

@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { models } from '../session/core';
-import { readPicked } from '../session/files';
+import { pickable, readPicked } from '../session/files';
 import { type GalleryEntry, loadGallery } from '../session/gallery';
 import { openGallery, openUrl } from '../session/open';
 import { dialog, openAny } from './actions';
@@ -31,7 +31,9 @@ export function OpenDialog() {
       <div class="row">
         <FileButton label="Files…" ready={ready} />
         <FileButton label="Folder…" ready={ready} folder />
-        <span class="quiet grow">.glb, .gltf with its files, .zip, .parsel.json. Or drop them anywhere.</span>
+        <span class="quiet grow">
+          .glb, .gltf or .obj with its files, .3mf, .ply, .stl, .zip, .parsel.json. Or drop them anywhere.
+        </span>
       </div>
       <form
         class="row"
@@ -95,7 +97,7 @@ function FileButton({ label, ready, folder = false }: { label: string; ready: bo
         ref={(input) => {
           if (folder) input?.setAttribute('webkitdirectory', '');
         }}
-        accept={folder ? undefined : '.glb,.gltf,.bin,.png,.jpg,.jpeg,.webp,.zip,.json'}
+        accept={folder ? undefined : pickable}
         onChange={(event) => {
           const files = [...(event.currentTarget.files ?? [])];
           if (files.length === 0) return;
