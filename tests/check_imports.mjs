@@ -4,7 +4,10 @@ import { dirname, join, normalize } from 'node:path';
 import { argv } from 'node:process';
 import { fileURLToPath } from 'node:url';
 
-const src = join(dirname(fileURLToPath(import.meta.url)), '../web/src');
+const web = join(dirname(fileURLToPath(import.meta.url)), '../web');
+const src = join(web, 'src');
+/** The package that others install; its rooms are named from here. */
+const runtime = '../runtime/src/';
 
 /** room: the rooms, or single files of them, and the packages that it may import, and why. */
 const rooms = {
@@ -43,13 +46,35 @@ const rooms = {
     packages: ['preact', '@preact/signals'],
     rule: 'ui shows the session and calls it; drawing, storing and asking are done in their rooms',
   },
+  runtime: {
+    may: ['program'],
+    packages: [],
+    rule: 'the core of the runtime is for pages without three.js and without WebAssembly',
+  },
+  'runtime/three': {
+    may: ['runtime', 'program', 'scene/meshes', 'scene/model_view', 'scene/cage'],
+    packages: ['three'],
+    rule: 'the helper for three.js moves a scene; it brings neither a stage nor a loader',
+  },
+  'runtime/viewer': {
+    may: ['runtime', 'runtime/three', 'program', 'scene'],
+    packages: [],
+    rule: 'the element shows a model on the stage of the page; of three.js it knows what scene makes of it',
+  },
 };
 
 const imported = /\b(?:from|import)\s*\(?\s*'([^']+)'/g;
 
-/** @param file its path below web/src, of a room */
+/** "scene" of scene/cage.ts, "runtime/three" of ../runtime/src/three/solid.ts. */
+function roomOf(path) {
+  if (!path.startsWith(runtime)) return path.split('/')[0];
+  const [folder, file] = path.slice(runtime.length).split('/');
+  return file === undefined ? 'runtime' : `runtime/${folder}`;
+}
+
+/** @param file its path from web/src, of a room */
 export function importFaults(file, text) {
-  const [room] = file.split('/');
+  const room = roomOf(file);
   if (!file.includes('/')) return []; // main.tsx starts it all
   if (!(room in rooms))
     return [`web/src/${room}: this folder has no row in tests/check_imports.mjs; say there what it may import`];
@@ -57,8 +82,8 @@ export function importFaults(file, text) {
   const isAllowed = (path) => {
     if (!path.startsWith('.'))
       return packages.some((name) => path === name || path.startsWith(`${name}/`)) || path.startsWith('node:');
-    const target = normalize(join(dirname(file), path));
-    const [other] = target.split('/');
+    const target = normalize(join(dirname(file), path)).replace(/^\.\.\/src\//, '');
+    const other = roomOf(target);
     return other === room || may.includes(other) || may.includes(target.replace(/\.tsx?$/, ''));
   };
   return text
@@ -66,12 +91,15 @@ export function importFaults(file, text) {
     .flatMap((line, i) =>
       [...line.matchAll(imported)]
         .filter(([, path]) => !isAllowed(path))
-        .map(([, path]) => `web/src/${file}:${i + 1}: ${path}: ${rule}`),
+        .map(([, path]) => `${normalize(join('web/src', file))}:${i + 1}: ${path}: ${rule}`),
     );
 }
 
 if (argv[1] === fileURLToPath(import.meta.url)) {
-  const files = readdirSync(src, { recursive: true, encoding: 'utf8' }).filter((file) => /\.tsx?$/.test(file));
+  const filesOf = (folder) => readdirSync(join(src, folder), { recursive: true, encoding: 'utf8' });
+  const files = ['', runtime]
+    .flatMap((folder) => filesOf(folder).map((file) => folder + file))
+    .filter((file) => /\.tsx?$/.test(file));
   const faults = files.flatMap((file) => importFaults(file, readFileSync(join(src, file), 'utf8')));
   if (faults.length > 0) {
     process.stderr.write(`${faults.join('\n')}\n`);

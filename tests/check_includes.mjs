@@ -29,9 +29,30 @@ const rooms = {
     may: ['base', 'shape', 'edit', 'propagate/edit_request.h', 'propagate/transfer.h'],
     rule: 'infer speaks to language models about shapes and edits; of the search it knows the request alone',
   },
+  cad: {
+    may: ['base', 'amount/number.h', 'shape/label.h', 'gallery/glb_writer.h'],
+    rule: 'cad reads and writes CAD programs; of amount it knows decimals, of shape the names of parts, of the gallery what writes a GLB',
+  },
+  family: {
+    may: ['base', 'cad', 'edit/program.h'],
+    rule: 'family finds what variations of a CAD model share; of edit it knows the types of programs alone',
+  },
   gallery: { may: ['base', 'shape/shape.h'], rule: 'gallery generates models; of shape it knows the type alone' },
   cli: {
-    may: ['base', 'gltf', 'shape', 'edit', 'export', 'prove', 'propagate', 'check', 'infer', 'gallery'],
+    may: [
+      'base',
+      'gltf',
+      'shape',
+      'edit',
+      'export',
+      'prove',
+      'propagate',
+      'check',
+      'infer',
+      'gallery',
+      'cad',
+      'family',
+    ],
     rule: 'cli is a leaf: commands call rooms',
   },
 };

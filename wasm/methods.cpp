@@ -10,6 +10,7 @@
 #include "core/export/sliders.h"
 #include "core/gallery/gallery.h"
 #include "core/infer/inference.h"
+#include "core/infer/plain_reading.h"
 #include "core/infer/prompt.h"
 #include "core/propagate/propagate.h"
 #include "core/propagate/solve.h"
@@ -175,8 +176,7 @@ Result<Output> gallery(const Input&) {
 }
 
 /// request: a text; mentioned: ids of parts.
-Result<Output> prompts(const Input& input) {
-  if (!model) return no_model();
+Result<EditWish> wish_of(const Input& input) {
   EditWish wish;
   const Result<std::string> request = text_parameter(input, "request");
   if (!request.ok()) return request.error();
@@ -185,7 +185,25 @@ Result<Output> prompts(const Input& input) {
     if (!id.is_string()) return wrong_parameter("mentioned", "a list of parts of the model");
     wish.mentioned.push_back(id.get<std::string>());
   }
-  const Result<std::vector<Prompt>> made = make_prompts(model->shape, wish);
+  return wish;
+}
+
+/// See wish_of().
+Result<Output> read_wish_plainly(const Input& input) {
+  if (!model) return no_model();
+  const Result<EditWish> wish = wish_of(input);
+  if (!wish.ok()) return wish.error();
+  const Result<PlainReading> reading = read_plainly(model->shape, *wish);
+  if (!reading.ok()) return reading.error();
+  return Output{to_json(model->shape, *reading), {}};
+}
+
+/// See wish_of().
+Result<Output> prompts(const Input& input) {
+  if (!model) return no_model();
+  const Result<EditWish> wish = wish_of(input);
+  if (!wish.ok()) return wish.error();
+  const Result<std::vector<Prompt>> made = make_prompts(model->shape, *wish);
   if (!made.ok()) return made.error();
   json list = json::array(), tasks = json::object();
   for (const Prompt& prompt : *made) list.push_back(to_json(model->shape, prompt));
@@ -238,6 +256,7 @@ constexpr std::array all_methods = {
     Method{"propagate", propagate_edit},
     Method{"apply", apply},
     Method{"gallery", gallery},
+    Method{"read_plainly", read_wish_plainly},
     Method{"prompts", prompts},
     Method{"read_replies", read_replies},
     Method{"memory", memory},

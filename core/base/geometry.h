@@ -19,13 +19,15 @@ using Weights = Eigen::Matrix<double, 1, 8>;
 /// part, one non-zero a face, two an edge, three a corner.
 using LocalTriple = std::array<int, 3>;
 
-/// The normalised frame: bounding box centred at the origin, half-diagonal 1. model = centre + scale · normalised.
+/// The normalised frame: along the model's own axes, bounding box centred at the origin, half-diagonal 1.
+/// model = centre + scale · axesᵀ · normalised.
 struct Frame {
-  Vec3 centre = Vec3::Zero();  ///< in model units (metres in glTF)
-  double scale = 1.0;          ///< model units per normalised unit
+  Vec3 centre = Vec3::Zero();    ///< in model units (metres in glTF)
+  double scale = 1.0;            ///< model units per normalised unit
+  Mat3 axes = Mat3::Identity();  ///< rows: the normalised axes, unit and right-handed, in the file's coordinates
 
-  Vec3 to_model(const Vec3& normalised) const { return centre + scale * normalised; }
-  Vec3 to_normalised(const Vec3& model) const { return (model - centre) / scale; }
+  Vec3 to_model(const Vec3& normalised) const { return centre + scale * (axes.transpose() * normalised); }
+  Vec3 to_normalised(const Vec3& model) const { return axes * (model - centre) / scale; }
 };
 
 /// The sign, -1 or 1, of corner k (0…7) along local axis 0, 1 or 2.

@@ -40,6 +40,7 @@ bool is_told(const Shape& shape, RelationIndex r, const std::set<RelationIndex>&
     const Part& part = shape.parts[p];
     if (part.is_virtual() && !counts(part, dissolved)) return false;
   }
+  if (relation.kind == RelationKind::ground) return true;
   const Pair pair = takers(shape, relation, dissolved);
   if (pair.first == pair.second) return false;  // within one group: the group says it
   return relation.is_attachment() || mirrored.count(pair) == 0;
@@ -109,6 +110,7 @@ std::set<RelationIndex> disabled_in(const Replay& replay, const Layer& layer) {
 }
 
 double tolerance(const Relation& relation, const std::set<PartIndex>& moved) {
+  if (relation.kind == RelationKind::ground) return 0.0144;  // the floor stays
   const bool all =
       std::all_of(relation.parts.begin(), relation.parts.end(), [&](PartIndex p) { return moved.count(p) > 0; });
   return relation.is_group() || all ? 0.0433 : 0.0144;

@@ -110,7 +110,8 @@ class TraceChecker {
     }
     for (const RelationIndex r : shape_.relations.indices()) {
       const Relation& relation = shape_.relations[r];
-      if (relation.is_group() || disabled_.count(r) > 0 || !counts(shape_, r, dissolved)) continue;
+      // The search follows relations between parts: what one part does by itself pulls at no other.
+      if (relation.parts.size() != 2 || disabled_.count(r) > 0 || !counts(shape_, r, dissolved)) continue;
       for (const PartIndex p : relation.parts) ties_of_[p].push_back(ties_.size());
       tie_of_[relation.id] = ties_.size();
       ties_.emplace_back(shape_, r);

@@ -20,6 +20,13 @@ Tie::Tie(const Shape& shape, RelationIndex index) : index_(index), relation_(&sh
   for (const PartIndex p : relation_->parts) {
     if (shape.parts[p].group && !shape.parts[p].is_virtual()) instances_of_.push_back(*shape.parts[p].group);
   }
+  if (const auto* ground = std::get_if<Ground>(&relation_->detail)) {
+    const Box rest = box_of(shape.parts[relation_->parts[0]].hexahedron.corners);
+    for (const Vec3& local : ground->local) {
+      feet_.push_back({blend(local), 0});
+      feet_.back().rest = feet_.back().height(rest);
+    }
+  }
   const auto* attachment = std::get_if<Attachment>(&relation_->detail);
   if (!attachment) return;
   for (std::size_t i = 0; i < attachment->points.size(); ++i) {
@@ -34,6 +41,12 @@ Vec3 Tie::Joint::between(const Box& a, const Box& b) const {
   Vec3 apart = Vec3::Zero();
   for (std::size_t k = 0; k < 8; ++k) apart += in_a[k] * a[k] - in_b[k] * b[k];
   return apart;
+}
+
+double Tie::Foot::height(const Box& part) const {
+  double y = 0;
+  for (std::size_t k = 0; k < 8; ++k) y += in[k] * part[k].y();
+  return y;
 }
 
 bool Tie::exists(const Scene& scene) const {
@@ -60,6 +73,8 @@ double Tie::off(const Scene& scene) const {
     return worst;
   }
   const Box& a = scene.parts[relation_->parts[0]];
+  for (const Foot& foot : feet_) worst = std::max(worst, std::abs(foot.height(a) - foot.rest));
+  if (relation_->parts.size() == 1) return worst;
   const Box& b = scene.parts[relation_->parts[1]];
   if (const auto* mirror = std::get_if<Reflection>(&relation_->detail)) {
     for (std::size_t k = 0; k < 8; ++k) {

@@ -27,11 +27,18 @@ class Tie {
     Vec3 rest;
     Vec3 between(const Box& a, const Box& b) const;
   };
+  /// A point of a foot: its weights in its part, and its height at rest.
+  struct Foot {
+    std::array<double, 8> in;
+    double rest;
+    double height(const Box& part) const;
+  };
 
   RelationIndex index_;
   const Relation* relation_;
   std::vector<RelationIndex> instances_of_;
   std::vector<Joint> joints_;
+  std::vector<Foot> feet_;
 };
 
 }  // namespace parsel::replay

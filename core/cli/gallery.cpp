@@ -5,6 +5,7 @@
 
 #include "core/cli/command.h"
 #include "core/gallery/gallery.h"
+#include "core/gallery/programs.h"
 
 namespace parsel::cli {
 namespace {
@@ -34,7 +35,15 @@ int run(const Arguments& arguments) {
   }
   const Status written = write_file(folder + "/gallery.json", list.dump(1) + "\n");
   if (!written) return refuse(written.error());
-  std::cout << nlohmann::json{{"folder", folder}, {"models", list.size()}}.dump(1) << '\n';
+  for (const GalleryProgram& program : gallery_programs()) {
+    const std::string path = folder + "/" + std::string(program.id);
+    if (const Status text = write_file(path + ".scad", program.scad); !text) return refuse(text.error());
+    if (const Status text = write_file(path + ".variations.json", program.variations); !text)
+      return refuse(text.error());
+  }
+  std::cout
+      << nlohmann::json{{"folder", folder}, {"models", list.size()}, {"programs", gallery_programs().size()}}.dump(1)
+      << '\n';
   return exit_done;
 }
 
@@ -43,7 +52,8 @@ int run(const Arguments& arguments) {
 extern const Command gallery_command;
 const Command gallery_command = {"gallery",
                                  "DIR [--wall N]",
-                                 "Writes every gallery model as DIR/<id>.glb and the list of them as DIR/gallery.json "
+                                 "Writes every gallery model as DIR/<id>.glb, the list of them as DIR/gallery.json and "
+                                 "every CAD program as DIR/<id>.scad with its DIR/<id>.variations.json "
                                  "(--wall: instead a wall of shelves with N parts, for benchmarks).",
                                  {"--wall"},
                                  {},

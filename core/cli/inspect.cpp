@@ -17,7 +17,7 @@ int run(const Arguments& arguments) {
   for (const Warning& warning : shape.warnings)
     std::cerr << "warning: " << warning.place << ": " << warning.text << '\n';
   if (!arguments.has("--words")) return write_json(arguments, to_json(shape));
-  const std::string words = describe(shape);
+  const std::string words = describe(shape) + describe_ground(shape);
   if (!arguments.has("-o")) {
     std::cout << words;
     return std::cout.flush() ? exit_done : exit_refused;

@@ -63,7 +63,7 @@ std::optional<CageMap> make_cage_map(const Frame& frame, const Corners& rest, co
   }
   CageMap map;
   map.moves = moves;
-  const Mat3 to_cage = edges.inverse() / frame.scale;  // from model coordinates
+  const Mat3 to_cage = edges.inverse() * frame.axes / frame.scale;  // from model coordinates
   const Vec3 centre = frame.to_model(rest.colwise().mean().transpose());
   map.to_local = to_cage * rest_world.linear();
   map.offset = to_cage * (rest_world.translation() - centre);
@@ -76,7 +76,7 @@ std::optional<CageMap> make_cage_map(const Frame& frame, const Corners& rest, co
 }
 
 void add_target(CageMap& map, const Frame& frame, const Corners& displacement, const Eigen::Affine3d& world) {
-  const Mat3 inverse = world.linear().inverse() * frame.scale;
+  const Mat3 inverse = world.linear().inverse() * frame.axes.transpose() * frame.scale;
   map.targets.push_back(displacement * inverse.transpose());
 }
 

@@ -256,8 +256,8 @@ class Planner {
     const Eigen::Affine3d parent = scene_.parent_world(source);
     if (!(std::abs(parent.linear().determinant()) > 1e-150)) return std::nullopt;
     Eigen::Affine3d model = Eigen::Affine3d::Identity();  // the motion in model coordinates
-    model.linear() = turn;
-    model.translation() = shape_.frame.scale * motion->translation() + shape_.frame.centre - turn * shape_.frame.centre;
+    model.linear() = shape_.frame.axes.transpose() * turn * shape_.frame.axes;
+    model.translation() = shape_.frame.to_model(motion->translation()) - model.linear() * shape_.frame.centre;
     return parent.inverse(Eigen::Affine) * model * scene_.world[source];
   }
 

@@ -77,7 +77,7 @@ std::vector<Placement> placements_along(const File& file, const gltf::Scene& sce
   if (std::abs(parent.linear().determinant()) < 1e-150) return {};
   const Placement before = gltf::transform_of(json).placement;
   Eigen::Affine3d to_model = Eigen::Affine3d::Identity();
-  to_model.linear() *= frame.scale;
+  to_model.linear() = frame.scale * frame.axes.transpose();
   to_model.translation() = frame.centre;
   const Eigen::Affine3d back = parent.inverse(Eigen::Affine) * to_model;
   const Eigen::Affine3d forth = to_model.inverse(Eigen::Affine) * scene.world[edit.node];

@@ -30,6 +30,7 @@ void layout(ModelBuilder& m) {
   m.reflect(2, {{front_left, back_left}, {front_right, back_right}});
   m.attach({arm_left}, {front_left, back_left}, RelationKind::line);
   m.attach({arm_right}, {front_right, back_right}, RelationKind::line);
+  m.stand({front_left, front_right, back_left, back_right});
 
   const double base_bottom = bottom + 0.03, base_top = base_bottom + base_height;
   const MeshId base_mesh = m.mesh("base", {inner, base_height, depth * 0.96}, fabric, rounded_box(0.012));

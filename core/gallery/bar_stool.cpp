@@ -27,6 +27,7 @@ void layout(ModelBuilder& m) {
       turned({{0.5, 0}, {0.9, 0.06}, {0.97, 0.16}, {1, 0.4}, {0.99, 0.66}, {0.93, 0.86}, {0.8, 0.96}, {0.55, 1}}, 48));
   const NodeId seat = m.part("seat", seat_mesh, {0, column_top - overlap + seat_height / 2, 0});
   m.attach({column}, {base, seat}, RelationKind::face);
+  m.stand({base});
 
   const double tube = m["ring_tube"], ring_y = column_bottom + m["ring_level"] * column_height;
   const MeshId ring_mesh = m.mesh("foot_ring", round("ring_diameter", tube), brass, ring(tube / 2));

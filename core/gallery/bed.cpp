@@ -30,6 +30,7 @@ void layout(ModelBuilder& m) {
     const NodeId panel = m.part(board_label, board_mesh, {0, 0.95 * height - board / 2, z * post_z});
     m.reflect(0, {{post_left, post_right}});
     m.attach({panel}, {post_left, post_right}, RelationKind::line);
+    m.stand({post_left, post_right});
     m.attach(left, post_left, RelationKind::line);
     m.attach(right, post_right, RelationKind::line);
     return panel;

@@ -27,6 +27,7 @@ void layout(ModelBuilder& m) {
   }
   const Side seat = m.translation(planks);
   m.attach({seat}, {left, right}, RelationKind::line);
+  m.stand({left, right});
 
   const double post = m["post_thickness"], post_z = -0.94 * depth / 2;
   const MeshId post_mesh = m.mesh("post", {support, back_height, post}, iron, rounded_box(0.007));

@@ -20,6 +20,7 @@ void layout(ModelBuilder& m) {
   const MeshId pole_mesh = m.mesh("pole", {pole, pole_height, pole}, post_wood, cylinder(0.002, 24));
   const NodeId post = m.part("pole", pole_mesh, {0, pole_bottom + pole_height / 2, 0});
   m.attach(foot, post, RelationKind::face);
+  m.stand({foot});
 
   // Side walls stand between front and back, the floor between all four.
   const double side_x = m["side_share"] * width / 2, front_z = depth / 2 - overlap + wall / 2;

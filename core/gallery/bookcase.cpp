@@ -33,6 +33,7 @@ void layout(ModelBuilder& m) {
   }
   const Side row = m.translation(shelves);
   m.attach({row}, {left, right, panel}, RelationKind::face);
+  m.stand({left, right, panel, row});
 
   const double spacing = (height - board) / (count - 1);
   m.edit({"widen", "Widen the bookcase.", {seed_scale_1d(panel, Vec3::UnitX())}, {}, {}}, [=](double x) {

@@ -41,6 +41,7 @@ void layout(ModelBuilder& m) {
   m.reflect(2, {{guard_front, guard_back}});
   m.attach({guard_front}, {front_left, front_right}, RelationKind::line);
   m.attach({guard_back}, {back_left, back_right}, RelationKind::line);
+  m.stand({front_left, front_right, back_left, back_right});
 
   const double stile = 0.045, ladder_height = 0.9 * height, stile_depth = 0.066,
                ladder_z = depth / 2 - overlap + stile_depth / 2;
@@ -50,6 +51,7 @@ void layout(ModelBuilder& m) {
   const NodeId stile_right = m.part("stile", stile_mesh, {-stile_x, ladder_height / 2, ladder_z});
   m.reflect(0, {{stile_left, stile_right}});
   for (const NodeId platform : platforms) m.attach({platform}, {stile_left, stile_right}, RelationKind::point);
+  m.stand({stile_left, stile_right});
 
   // The rungs' thickness is a share of the height, as a scale of the whole row has it.
   const double rung_length = 2 * (stile_x - 0.4 * stile + overlap), rung = 0.016 * height;

@@ -29,6 +29,7 @@ void layout(ModelBuilder& m) {
   m.reflect(0, {{front_left, front_right}, {back_left, back_right}});
   m.reflect(2, {{front_left, back_left}, {front_right, back_right}});
   m.attach({body}, {front_left, front_right, back_left, back_right}, RelationKind::point);
+  m.stand({front_left, front_right, back_left, back_right});
 
   // Hinges at the doors' outer back edges; a stile of the body shows between the doors.
   const double hinge_x = 0.47 * width, door = 0.445 * width, door_height = 0.92 * height;

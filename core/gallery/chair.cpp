@@ -27,6 +27,7 @@ void layout(ModelBuilder& m) {
   m.reflect(0, {{front_left, front_right}, {back_left, back_right}});
   m.reflect(2, {{front_left, back_left}, {front_right, back_right}});
   m.attach({seat}, {front_left, front_right, back_left, back_right}, RelationKind::point);
+  m.stand({front_left, front_right, back_left, back_right});
 
   const double bar = 0.022, bar_y = 0.48 * leg_height;
   const double bar_length = 2 * (leg_z - leg / 2 + overlap);

@@ -19,6 +19,7 @@ void layout(ModelBuilder& m) {
   const NodeId right = m.part("pedestal", pedestal_mesh, {-pedestal_x, height / 2, 0});
   m.reflect(0, {{left, right}});
   m.attach({top}, {left, right}, RelationKind::line);
+  m.stand({left, right});
 
   const double panel_length = 2 * (pedestal_x - pedestal / 2 + overlap);
   const MeshId panel_mesh = m.mesh("panel", {panel_length, m["panel_height"], 0.02}, paint, rounded_box(0.003));

@@ -24,6 +24,7 @@ void layout(ModelBuilder& m) {
   m.reflect(0, {{front_left, front_right}, {back_left, back_right}});
   m.reflect(2, {{front_left, back_left}, {front_right, back_right}});
   m.attach({top}, {front_left, front_right, back_left, back_right}, RelationKind::point);
+  m.stand({front_left, front_right, back_left, back_right});
 
   // A shadow gap parts the aprons from the top: only the legs carry it.
   const double apron_y = m["apron_level"] * leg_height;

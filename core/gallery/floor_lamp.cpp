@@ -19,6 +19,7 @@ void layout(ModelBuilder& m) {
   const MeshId pole_mesh = m.mesh("pole", round(pole_diameter, pole_height), metal, cylinder(0.002, 20));
   const NodeId pole = m.part("pole", pole_mesh, {0, pole_bottom + pole_height / 2, 0});
   m.attach(base, pole, RelationKind::face);
+  m.stand({base});
 
   const double collar_height = m["collar_height"];
   const MeshId collar_mesh = m.mesh("collar", round(2.4 * pole_diameter, collar_height), dark,

@@ -40,8 +40,9 @@ struct GalleryPart {
 /// Attachments of a grouped part are those of its virtual part.
 struct GalleryRelation {
   RelationKind kind = RelationKind::point;
-  std::vector<std::vector<int>> parts;  ///< reflection, attachment: two; translation, rotation: the instances in order
-  int axis = -1;                        ///< reflection: global axis across the plane
+  std::vector<std::vector<int>>
+      parts;      ///< reflection, attachment: two; translation, rotation: the instances in order; ground: one
+  int axis = -1;  ///< reflection: global axis across the plane
 };
 
 /// An edit whose right answer is known: the model edited at slider value x equals the model built with values(x).

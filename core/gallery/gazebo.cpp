@@ -23,6 +23,7 @@ void layout(ModelBuilder& m) {
   const MeshId floor_mesh = m.mesh("floor", round(diameter, floor_height), wood, faceted(8, 0.985, 0, 0.08));
   const NodeId floor = m.part("floor", floor_mesh, {0, floor_bottom + floor_height / 2, 0});
   m.attach(step, floor, RelationKind::face);
+  m.stand({step});
 
   const double column_y = floor_top - overlap + column_height / 2;
   const double radius = m["column_share"] * diameter / 2 - column / 2;

@@ -165,7 +165,7 @@ Json to_json(const GlbNode& node) {
 
 std::string write_glb(const GlbScene& scene) {
   Writer writer;
-  Json json = {{"asset", {{"version", "2.0"}, {"generator", "parsel gallery"}}}, {"scene", 0}};
+  Json json = {{"asset", {{"version", "2.0"}, {"generator", scene.generator}}}, {"scene", 0}};
   for (const GlbMaterial& material : scene.materials) json["materials"].push_back(to_json(material));
   for (const GlbMesh& mesh : scene.meshes) {
     Json primitives = Json::array();

@@ -37,6 +37,7 @@ struct GlbNode {
 
 struct GlbScene {
   std::string name;
+  std::string generator = "parsel gallery";
   std::vector<GlbMaterial> materials;
   std::vector<GlbMesh> meshes;
   std::vector<GlbNode> nodes;

@@ -129,8 +129,13 @@ Side ModelBuilder::rotation(const std::vector<NodeId>& instances) {
   return group;
 }
 
+void ModelBuilder::stand(std::initializer_list<Side> parts) {
+  for (const Side& part : parts) relations_.push_back({RelationKind::ground, {part.nodes}, -1});
+}
+
 void ModelBuilder::attach(const Side& a, const Side& b, RelationKind kind) {
-  PARSEL_ASSERT(kind >= RelationKind::point, "an attachment is a point, line, face or volume");
+  PARSEL_ASSERT(kind >= RelationKind::point && kind <= RelationKind::volume,
+                "an attachment is a point, line, face or volume");
   relations_.push_back({kind, {a.nodes, b.nodes}, -1});
 }
 

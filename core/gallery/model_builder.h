@@ -77,6 +77,8 @@ class ModelBuilder {
   Side translation(const std::vector<NodeId>& instances);
   /// Three or more parts on a closed ring, in order.
   Side rotation(const std::vector<NodeId>& instances);
+  /// Parts that stand on the floor.
+  void stand(std::initializer_list<Side> parts);
   void attach(const Side& a, const Side& b, RelationKind kind);
   void attach(std::initializer_list<Side> a, std::initializer_list<Side> b, RelationKind kind);
 

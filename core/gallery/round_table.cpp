@@ -53,6 +53,7 @@ void layout(ModelBuilder& m) {
   const Side ring = m.rotation(legs);
   // Three legs under the top are symmetric from left to right only, but reach over most of it from front to back.
   m.attach(ring, top, RelationKind::face);
+  m.stand({ring});
 
   const double metres = m.half_diagonal();
   m.edit({"widen",

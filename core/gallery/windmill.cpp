@@ -24,6 +24,7 @@ void layout(ModelBuilder& m) {
              turned({{0.9, 0}, {1, 0.06}, {0.97, 0.14}, {0.82, 0.42}, {0.55, 0.72}, {0.2, 0.95}, {0.06, 1}}, 32));
   const NodeId roof_cap = m.part("cap", cap_mesh, {0, cap_bottom + cap_height / 2, 0});
   m.attach(body, roof_cap, RelationKind::face);
+  m.stand({body});
 
   // Door and window stand within the tower's box, where its wall leans inwards.
   const double door_height = 0.2 * tower_height, window_height = 0.085 * tower_height;

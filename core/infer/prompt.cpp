@@ -70,6 +70,17 @@ Status check(const EditWish& wish) {
 
 }  // namespace
 
+Result<std::vector<PartIndex>> check_wish(const Shape& shape, const EditWish& wish) {
+  if (const Status checked = check(wish); !checked.ok()) return checked.error();
+  std::vector<PartIndex> mentioned;
+  for (const std::string& id : wish.mentioned) {
+    const auto part = shape.find_part(id);
+    if (!part) return Error{stage, "mentioned", "the shape has no part " + shown(id), "point at parts of this model"};
+    mentioned.push_back(*part);
+  }
+  return mentioned;
+}
+
 Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task& task, AboutRelation relation) {
   if (const Status checked = check(wish); !checked.ok()) return checked.error();
   if (relation && (!task.asks_about || !task.asks_about(shape.relations[*relation].kind))) {
@@ -81,12 +92,10 @@ Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task&
     return Error{stage, "relation", "the task " + std::string(task.name) + " asks about one relation",
                  "name a relation, such as r1 or t1"};
   }
+  const Result<std::vector<PartIndex>> parts = check_wish(shape, wish);
+  if (!parts.ok()) return parts.error();
   std::string mentioned;
-  for (const std::string& id : wish.mentioned) {
-    const auto part = shape.find_part(id);
-    if (!part) return Error{stage, "mentioned", "the shape has no part " + shown(id), "point at parts of this model"};
-    mentioned += (mentioned.empty() ? "" : ", ") + shape.parts[*part].id;
-  }
+  for (const PartIndex part : *parts) mentioned += (mentioned.empty() ? "" : ", ") + shape.parts[part].id;
   const Template from = read_template(task);
   Prompt prompt{&task, relation, {}, {}, std::string(from.version)};
   Places places = {{"shape", describe(shape)},

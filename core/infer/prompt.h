@@ -21,6 +21,9 @@ struct EditWish {
   std::vector<std::string> mentioned;  ///< ids of the parts that the person pointed at
 };
 
+/// The parts that a wish mentions; or why it cannot be asked: blank, too long, or about parts that are not there.
+Result<std::vector<PartIndex>> check_wish(const Shape& shape, const EditWish& wish);
+
 struct Prompt {
   const Task* task = nullptr;
   AboutRelation relation;

@@ -1,4 +1,5 @@
-// The files of prompts/, compiled in: CMakeLists.txt writes prompt_texts.cpp from them.
+// The files of prompts/ and the lists of words beside this header, compiled in: CMakeLists.txt writes prompt_texts.cpp
+// from them.
 #pragma once
 
 #include <span>
@@ -13,5 +14,8 @@ struct PromptText {
 };
 
 std::span<const PromptText> prompt_texts();
+
+/// The JSON of every words/<language>.json.
+std::span<const std::string_view> word_list_texts();
 
 }  // namespace parsel

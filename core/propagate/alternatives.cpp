@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "core/propagate/search.h"
 #include "core/propagate/seeds.h"
@@ -14,8 +15,9 @@ namespace parsel {
 
 namespace {
 
-/// Parts whose lowest corner is higher than this above the lowest of all do not stand on the floor. Half-diagonals: the
-/// distance within which parts touch.
+/// A seed that takes a part through the floor, or a foot off it, by more than this has no use for the floor; and what
+/// is this near the lowest of a shape that could not stand is its foot. Half-diagonals: the distance within which parts
+/// touch.
 constexpr double floor_distance = 0.01;
 /// Two motions of the whole that differ by no more than this are the same rigid one.
 constexpr double rigid_noise = 1e-5;
@@ -26,7 +28,14 @@ Motion still() {
   return motion;
 }
 
-/// The part's lowest corners, to which the floor is tied.
+/// What a ground relation asks of its part.
+Footing footing_of(const Ground& ground) {
+  Footing footing;
+  for (const Vec3& local : ground.local) footing.points.push_back(trilinear_weights(local));
+  return footing;
+}
+
+/// The part's lowest corners.
 Footing footing_of(const Corners& corners) {
   const double lowest = corners.col(1).minCoeff();
   Footing footing;
@@ -152,32 +161,44 @@ class Alternatives : public Attempt {
       problem.contacts[r] = contact_of(shape_.parts[relation.parts[0]].hexahedron.corners,
                                        shape_.parts[relation.parts[1]].hexahedron.corners);
     }
-    for (const PartIndex part : standing()) {
-      problem.footings[part] = footing_of(shape_.parts[part].hexahedron.corners);
-      if (restriction.feet_stay) problem.footings[part]->mask = Vec3::Ones();
+    for (auto& [part, footing] : standing()) {
+      if (restriction.feet_stay) footing.mask = Vec3::Ones();
+      problem.footings[part] = std::move(footing);
     }
     return problem;
   }
 
-  /// Parts that stand on the floor. None where a seed itself takes a part off the floor or through it: then the request
-  /// has no floor, and the parts that follow are not to blame.
-  std::vector<PartIndex> standing() const {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const Part& part : shape_.parts) lowest = std::min(lowest, part.hexahedron.corners.col(1).minCoeff());
-    std::vector<PartIndex> parts;
+  using Feet = std::map<PartIndex, Footing>;
+
+  /// Parts that stand on the floor, by the ground relations that count. Of a shape that has none, as it hangs or leans,
+  /// what is lowest: without an end that stays, the rod of a ceiling fan is left behind by what hangs on it. None where
+  /// a seed itself takes a part off the floor or through it: then the request has no floor, and the parts that follow
+  /// are not to blame.
+  Feet standing() const {
+    Feet feet;
+    double floor = std::numeric_limits<double>::infinity();
+    for (const Part& part : shape_.parts) floor = std::min(floor, part.hexahedron.corners.col(1).minCoeff());
+    bool could_stand = false;
+    for (const RelationIndex r : shape_.relations.indices()) {
+      const auto* ground = std::get_if<Ground>(&shape_.relations[r].detail);
+      if (ground == nullptr) continue;
+      could_stand = true;
+      const bool counts = request_.disabled.count(r) == 0 && is_active(shape_, r, request_.dissolved);
+      if (counts) feet.emplace(shape_.relations[r].parts[0], footing_of(*ground));
+    }
+    for (const PartIndex part : graph_.parts()) {
+      const Corners& corners = shape_.parts[part].hexahedron.corners;
+      if (!could_stand && corners.col(1).minCoeff() <= floor + floor_distance) feet.emplace(part, footing_of(corners));
+    }
     for (const PartIndex part : graph_.parts()) {
       if (!is_seed(part)) continue;
       const Corners& rest = shape_.parts[part].hexahedron.corners;
-      const bool stands = rest.col(1).minCoeff() <= lowest + floor_distance;
       for (const Corners& motion : {seeds_[part]->motion.front(), seeds_[part]->motion.back()}) {
         const double bottom = (rest + motion).col(1).minCoeff();
-        if (bottom < lowest - floor_distance || (stands && bottom > lowest + floor_distance)) return parts;
+        if (bottom < floor - floor_distance || (feet.count(part) > 0 && bottom > floor + floor_distance)) return {};
       }
     }
-    for (const PartIndex part : graph_.parts()) {
-      if (shape_.parts[part].hexahedron.corners.col(1).minCoeff() <= lowest + floor_distance) parts.push_back(part);
-    }
-    return parts;
+    return feet;
   }
 
   /// Parts that a hint keeps fixed.
@@ -208,12 +229,20 @@ class Alternatives : public Attempt {
       best = std::move(found);
       cost = price;
     };
-    Restriction body = free;
-    const std::set<PartIndex> stays = parts_beyond_seeds();
-    body.held.insert(stays.begin(), stays.end());
-    if (body.held.size() > free.held.size()) consider(body);
+    std::set<PartIndex> nearest;
+    for (const PartIndex part : graph_.parts()) {
+      if (is_seed(part)) nearest.insert(part);
+    }
+    for (int reach = 0; reach < 2; ++reach) {
+      Restriction body = free;
+      const std::set<PartIndex> stays = body_beyond(nearest);
+      body.held.insert(stays.begin(), stays.end());
+      if (body.held.size() > free.held.size()) consider(body);
+      const std::set<PartIndex> around = neighbours_of(nearest);
+      nearest.insert(around.begin(), around.end());
+    }
     Restriction standing_parts = free;
-    for (const PartIndex part : standing()) {
+    for (const auto& [part, footing] : standing()) {
       if (!is_seed(part)) standing_parts.held.insert(part);
     }
     if (standing_parts.held.size() > free.held.size()) consider(standing_parts);
@@ -258,15 +287,26 @@ class Alternatives : public Attempt {
     return true;
   }
 
-  /// The neighbours of the seeds that belong to the body of the model: what is left of the graph of joints without the
-  /// seeds falls into pieces; a piece stays when it stands on the floor, or when it is the largest.
-  std::set<PartIndex> parts_beyond_seeds() const {
-    const std::vector<PartIndex> feet = standing();
+  std::set<PartIndex> neighbours_of(const std::set<PartIndex>& parts) const {
+    std::set<PartIndex> neighbours;
+    for (const PartIndex part : parts) {
+      for (const RelationIndex r : graph_.relations(part)) {
+        const PartIndex other = graph_.other(r, part);
+        if (shape_.relations[r].is_attachment() && parts.count(other) == 0) neighbours.insert(other);
+      }
+    }
+    return neighbours;
+  }
+
+  /// The neighbours of some parts that belong to the body of the model: what is left of the graph of joints without
+  /// those parts falls into pieces; a piece stays when it stands on the floor, or when it is the largest.
+  std::set<PartIndex> body_beyond(const std::set<PartIndex>& nearest) const {
+    const Feet feet = standing();
     PartData<int> piece(shape_.parts.size(), -1);
     std::vector<double> size;
     std::vector<bool> stands;
     for (const PartIndex start : graph_.parts()) {
-      if (is_seed(start) || piece[start] >= 0) continue;
+      if (nearest.count(start) > 0 || piece[start] >= 0) continue;
       const int number = static_cast<int>(size.size());
       size.push_back(0);
       stands.push_back(false);
@@ -277,26 +317,20 @@ class Alternatives : public Attempt {
         open.pop_back();
         const Corners& corners = shape_.parts[part].hexahedron.corners;
         size.back() += (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).norm();
-        stands.back() = stands.back() || std::find(feet.begin(), feet.end(), part) != feet.end();
-        for (const RelationIndex r : graph_.relations(part)) {
-          const PartIndex other = graph_.other(r, part);
-          if (!shape_.relations[r].is_attachment() || is_seed(other) || piece[other] >= 0) continue;
+        stands.back() = stands.back() || feet.count(part) > 0;
+        for (const PartIndex other : neighbours_of({part})) {
+          if (nearest.count(other) > 0 || piece[other] >= 0) continue;
           piece[other] = number;
           open.push_back(other);
         }
       }
     }
-    std::set<PartIndex> stays;
-    if (size.empty()) return stays;
+    if (size.empty()) return {};
     const auto largest = std::max_element(size.begin(), size.end()) - size.begin();
-    for (const PartIndex part : graph_.parts()) {
-      if (!is_seed(part)) continue;
-      for (const RelationIndex r : graph_.relations(part)) {
-        const PartIndex other = graph_.other(r, part);
-        if (is_seed(other) || !shape_.relations[r].is_attachment()) continue;
-        const int number = piece[other];
-        if (number == largest || stands[static_cast<std::size_t>(number)]) stays.insert(other);
-      }
+    std::set<PartIndex> stays;
+    for (const PartIndex part : neighbours_of(nearest)) {
+      const int number = piece[part];
+      if (number == largest || stands[static_cast<std::size_t>(number)]) stays.insert(part);
     }
     return stays;
   }

@@ -72,7 +72,8 @@ std::optional<ClosedForm> AmountSolver::solve(const Candidate& candidate, const 
     if (auto form = from_equation(candidate, wanted)) return form;
     return from_angle(candidate, wanted);
   }
-  return from_equation(candidate, wanted);
+  if (auto form = from_equation(candidate, wanted)) return form;
+  return from_all_points(candidate, wanted);
 }
 
 std::optional<ClosedForm> AmountSolver::proportional(const Candidate& candidate, const Samples& wanted) const {
@@ -189,6 +190,26 @@ std::optional<ClosedForm> AmountSolver::from_equation(const Candidate& candidate
     }
   }
   return std::nullopt;
+}
+
+std::optional<ClosedForm> AmountSolver::from_all_points(const Candidate& candidate, const Samples& wanted) {
+  ex sum = 0;
+  for (const PointConstraint& constraint : constraints_) {
+    const Vec3 v = interpolate(constraint.weights, candidate.field);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double coefficient = v[static_cast<int>(c)];
+      if (std::abs(coefficient) > noise) sum += number(coefficient) * goals_(constraint, edits_, c);
+    }
+  }
+  const auto values = sampled(sum, parameter_, at_);
+  if (!values) return std::nullopt;
+  double dot = 0, square = 0;
+  for (std::size_t s = 0; s < sample_count; ++s) {
+    dot += wanted[s] * (*values)[s];
+    square += (*values)[s] * (*values)[s];
+  }
+  if (square < noise * noise) return std::nullopt;
+  return accept((number(dot / square) * sum).expand(), candidate, wanted);
 }
 
 std::optional<ClosedForm> AmountSolver::from_angle(const Candidate& candidate, const Samples& wanted) {

@@ -42,6 +42,8 @@ class AmountSolver {
   /// fitted angle differ by less than they are off.
   std::optional<ClosedForm> same_turn(const Candidate& candidate, const Samples& wanted) const;
   std::optional<ClosedForm> from_equation(const Candidate& candidate, const Samples& wanted);
+  /// The least-squares amount of all points together (screen.h), where no amount meets each: Σ v·r, but for a factor.
+  std::optional<ClosedForm> from_all_points(const Candidate& candidate, const Samples& wanted);
   std::optional<ClosedForm> from_angle(const Candidate& candidate, const Samples& wanted);
   std::optional<ClosedForm> accept(const GiNaC::ex& expression, const Candidate& candidate,
                                    const Samples& wanted) const;

@@ -23,7 +23,8 @@ Graph::Graph(const Shape& shape, const std::vector<RelationIndex>& dissolved, co
     : shape_(&shape), parts_(active_parts(shape, dissolved)), of_part_(shape.parts.size()) {
   for (const RelationIndex r : active_relations(shape, dissolved)) {
     const Relation& relation = shape.relations[r];
-    if (relation.is_group() || disabled.count(r) > 0) continue;
+    // The floor pulls at no part: a ground relation has no other end.
+    if (relation.is_group() || relation.kind == RelationKind::ground || disabled.count(r) > 0) continue;
     for (const PartIndex part : relation.parts) of_part_[part].push_back(r);
   }
 }

@@ -272,8 +272,9 @@ void dissolve_followers(const Shape& shape, const std::set<RelationIndex>& as_gr
   }
 }
 
-/// The joint of a group that may come apart stands for those of its instances with the same part: they may as well.
-void disable_joints_of_instances(const Shape& shape, ResolvedRequest& resolved) {
+/// The joint of a group that may come apart stands for those of its instances with the same part: they may as well. So
+/// may the instances of a group that may leave the floor.
+void disable_relations_of_instances(const Shape& shape, ResolvedRequest& resolved) {
   using Ends = std::set<PartIndex>;
   const auto taken_by = [&](PartIndex part) {
     const auto group = shape.parts[part].group;
@@ -282,13 +283,17 @@ void disable_joints_of_instances(const Shape& shape, ResolvedRequest& resolved) 
     return stands ? parent_of(shape.relations[*group]) : part;
   };
   std::set<Ends> apart;
+  std::set<PartIndex> off_floor;
   for (const RelationIndex r : resolved.disabled) {
     const Relation& relation = shape.relations[r];
     if (relation.is_attachment()) apart.insert({relation.parts[0], relation.parts[1]});
+    if (relation.kind == RelationKind::ground) off_floor.insert(relation.parts[0]);
   }
   for (const RelationIndex r : shape.relations.indices()) {
     const Relation& relation = shape.relations[r];
     if (relation.is_attachment() && apart.count({taken_by(relation.parts[0]), taken_by(relation.parts[1])}) > 0)
+      resolved.disabled.insert(r);
+    if (relation.kind == RelationKind::ground && off_floor.count(taken_by(relation.parts[0])) > 0)
       resolved.disabled.insert(r);
   }
 }
@@ -327,7 +332,7 @@ Result<ResolvedRequest> resolve(const EditRequest& request, const Shape& shape) 
   if (Status s = resolve_hints(request, shape, dissolved, resolved); !s.ok()) return s.error();
   resolved.dissolved.assign(dissolved.begin(), dissolved.end());
   resolved.disabled.insert(dissolved.begin(), dissolved.end());
-  disable_joints_of_instances(shape, resolved);
+  disable_relations_of_instances(shape, resolved);
   return resolved;
 }
 

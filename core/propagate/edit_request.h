@@ -33,8 +33,8 @@ nlohmann::json to_json(const EditRequest& request);
 struct ResolvedRequest {
   std::vector<Statement> seed;        ///< node:… replaced by ids
   std::vector<PartIndex> seed_parts;  ///< whose corners seed[i] moves; the parent for group operators
-  /// Reflections and attachments, with those of instances whose group's own attachment is disabled, and the group
-  /// relations that are dissolved.
+  /// Reflections, attachments and grounds, with those of instances whose group's own attachment or ground is disabled,
+  /// and the group relations that are dissolved.
   std::set<RelationIndex> disabled;
   std::set<RelationIndex> disabled_by_name;  ///< of these, the ones that the request itself disables
   /// Groups that a seed on an instance, or "disabled", takes apart, with those whose instances hang on theirs.

@@ -13,6 +13,13 @@ Constraint make_constraint(const Shape& shape, RelationIndex relation) {
       if (part.group && !part.is_virtual()) constraint.groups.push_back(*part.group);
     }
   }
+  if (const auto* ground = std::get_if<Ground>(&constraint.relation->detail)) {
+    const Corners& part = shape.parts[constraint.relation->parts[0]].hexahedron.corners;
+    for (const Vec3& local : ground->local) {
+      constraint.weights_a.push_back(trilinear_weights(local));
+      constraint.at_rest.push_back(interpolate(constraint.weights_a.back(), part));
+    }
+  }
   const auto* attachment = std::get_if<Attachment>(&constraint.relation->detail);
   if (!attachment) return constraint;
   const Corners& a = shape.parts[constraint.relation->parts[0]].hexahedron.corners;

@@ -5,6 +5,7 @@
 //   translation  H_i[k] - H_0[k] - i·(end - start)/(n - 1), the instances i of the group as they are now
 //   rotation     H_i[k] - centre - R(axis, i·2π/n)(H_0[k] - centre)
 //   attachment   M_a H_a - M_b H_b minus the same at rest
+//   ground       the height of M_a H_a minus the same at rest
 // An attachment to the parent of a group is one to the parent's corners, whatever the number of instances. One of an
 // instance is judged while the instance exists: once the number has changed, all instances are copies of one at places
 // of their own, and there is no part any more that the relation could speak of. That start,
@@ -25,8 +26,8 @@ namespace parsel {
 struct Constraint {
   const Relation* relation;
   RelationIndex index;
-  std::vector<Weights> weights_a, weights_b;  ///< attachment: of each point in its two parts
-  std::vector<Vec3> at_rest;                  ///< attachment: M_a H_a - M_b H_b of the shape
+  std::vector<Weights> weights_a, weights_b;  ///< attachment: of each point in its two parts; ground: in its part (a)
+  std::vector<Vec3> at_rest;                  ///< M_a H_a - M_b H_b of the shape (ground: M_a H_a)
   std::vector<RelationIndex> groups;          ///< of which its parts are instances
 };
 
@@ -156,6 +157,20 @@ void attachment_deviations(const Constraint& constraint, const State& state, F&&
   }
 }
 
+template <class State, class F>
+void ground_deviations(const Constraint& constraint, const State& state, F&& f) {
+  using T = typename ScalarOf<State>::Type;
+  const auto& part = state.parts[constraint.relation->parts[0]];
+  for (std::size_t i = 0; i < constraint.at_rest.size(); ++i) {
+    T value(-constraint.at_rest[i].y());
+    for (int k = 0; k < 8; ++k) {
+      const double weight = constraint.weights_a[i][k];
+      if (weight != 0) add_scaled(value, weight, coordinate(part, k, 1));
+    }
+    f(value);
+  }
+}
+
 }  // namespace detail
 
 /// Calls f with every coordinate of the constraint: a double for a State, a Jet for a JetState. With none when the
@@ -170,6 +185,8 @@ void for_each_deviation(const Constraint& constraint, const State& state, F&& f)
       return detail::translation_deviations(constraint, state, f);
     case RelationKind::rotation:
       return detail::rotation_deviations(constraint, state, f);
+    case RelationKind::ground:
+      return detail::ground_deviations(constraint, state, f);
     default:
       return detail::attachment_deviations(constraint, state, f);
   }

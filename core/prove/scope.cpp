@@ -48,6 +48,7 @@ bool is_judged(const Shape& shape, RelationIndex r, const std::vector<RelationIn
   for (const PartIndex p : relation.parts) {
     if (shape.parts[p].is_virtual() && !standing_group(shape.parts[p], dissolved)) return false;
   }
+  if (relation.kind == RelationKind::ground) return true;
   const PartIndex a = carrier(shape, relation.parts[0], dissolved);
   const PartIndex b = carrier(shape, relation.parts[1], dissolved);
   return a != b && (relation.is_attachment() || mirrored.count(unordered(a, b)) == 0);
@@ -102,7 +103,8 @@ Scope scope_of(const Shape& shape, const Program& program, std::size_t layer, co
 }
 
 double tolerance_of(const Relation& relation, const Scope& scope) {
-  return tolerance_of(relation, scope.edited.count(relation.parts[0]) > 0, scope.edited.count(relation.parts[1]) > 0);
+  return tolerance_of(relation, scope.edited.count(relation.parts[0]) > 0,
+                      scope.edited.count(relation.parts.back()) > 0);
 }
 
 }  // namespace parsel

@@ -29,6 +29,7 @@ struct Scope {
 ///   * a group while it stands, and what ties its parent, as long as it stands;
 ///   * every attachment of a real part. An instance of a standing group goes where the group takes it, and may leave a
 ///     neighbour that only the parent's own joint, at the corners of the parent's box, keeps up with;
+///   * the ground of a real part, for the same reason: a foot that its group lifts has left the floor;
 ///   * a reflection of instances unless their groups (or a group and the part itself) have one already: that and the
 ///     groups say it all.
 /// But for the relations of two instances of one standing group: their place in it is what the group says.

@@ -5,6 +5,7 @@
 namespace parsel {
 
 double tolerance_of(const Relation& relation, bool moves_a, bool moves_b) {
+  if (relation.kind == RelationKind::ground) return delta_one_edited;
   return relation.is_group() || (moves_a && moves_b) ? delta_both_edited : delta_one_edited;
 }
 

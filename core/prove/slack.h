@@ -14,7 +14,8 @@ enum class Slack { tight, half, one, two, broken };
 /// all) while one of its parts stays where it is, delta_both_edited (0.075/√3) when both move. A part that stays shows
 /// a gap at once and leaves its neighbour no say in it; two parts that move share the error of both edits. A part that
 /// is kept fixed stays, whatever was decided about it. A group and its parent always move together, so they count as
-/// both. `moves_a`, `moves_b`: whether relation.parts[0] and [1] move; without effect for a group.
+/// both; the floor never moves. `moves_a`, `moves_b`: whether relation.parts[0] and [1] move; without effect for a group
+/// and for the ground.
 double tolerance_of(const Relation& relation, bool moves_a, bool moves_b);
 
 /// `residual`: the largest |coordinate| by which the relation is off, normalised, >= 0. `broken` exactly when it

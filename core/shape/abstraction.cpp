@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "core/base/sha256.h"
 #include "core/base/text.h"
+#include "core/shape/alike.h"
 #include "core/shape/attachment.h"
+#include "core/shape/contacts.h"
+#include "core/shape/frame.h"
 #include "core/shape/gltf_import.h"
+#include "core/shape/ground.h"
 #include "core/shape/group.h"
 #include "core/shape/label.h"
 #include "core/shape/oriented_box.h"
@@ -17,6 +20,15 @@
 
 namespace parsel {
 namespace {
+
+/// +y of the normalised frame.
+constexpr int up_axis = 1;
+
+/// Whether a box touches the same box moved by `delta`: no axis parts them by more than a joint may gape.
+bool touch_each_other(const Hexahedron& box, const Vec3& delta) {
+  const Vec3 apart = (box.axes * delta).cwiseAbs() - 2 * box.half_extents();
+  return apart.maxCoeff() <= contact_distance;
+}
 
 /// Builds the graph from meshes, aligned boxes and symmetries.
 class Builder {
@@ -29,6 +41,7 @@ class Builder {
     add_reflections();
     add_groups();
     add_attachments();
+    add_ground();
   }
 
  private:
@@ -52,16 +65,19 @@ class Builder {
       parent.members = group.parts;
       parent.hexahedron = group_box(group, boxes);
       parents_.push_back(shape_.parts.push_back(std::move(parent)));
+      for (const PartIndex p : group.parts) parent_of_[p] = parents_.back();
     }
     align_parents();
 
-    std::vector<std::string> labels;
+    std::vector<std::string> labels, given;
     std::vector<Vec3> centres;
+    for (const PartMesh& mesh : meshes_) given.push_back(mesh.name);
+    given.resize(shape_.parts.size());
     for (const Part& part : shape_.parts) {
       labels.push_back(part.label);
       centres.push_back(part.hexahedron.point(Vec3::Zero()));
     }
-    const std::vector<PartName> names = name_parts(labels, centres);
+    const std::vector<PartName> names = name_parts(labels, centres, given);
     for (const PartIndex p : shape_.parts.indices()) {
       shape_.parts[p].id = names[p.value()].id;
       shape_.parts[p].name = names[p.value()].name;
@@ -86,8 +102,7 @@ class Builder {
     }
   }
 
-  RelationIndex add(char letter, RelationKind kind, std::vector<PartIndex> parts,
-                    std::variant<Reflection, Translation, Rotation, Attachment> detail) {
+  RelationIndex add(char letter, RelationKind kind, std::vector<PartIndex> parts, decltype(Relation::detail) detail) {
     const std::string id = letter + std::to_string(++count_[letter]);
     return shape_.relations.push_back({id, kind, std::move(parts), std::move(detail)});
   }
@@ -102,6 +117,7 @@ class Builder {
       Reflection reflection;
       reflection.normal = Vec3::Unit(m.axis);
       reflection.origin = m.offset * reflection.normal;
+      reflection.stacked = m.axis == up_axis;
       // Boxes tied along several ways (four legs: two planes) agree up to rounding; what does not agree is no relation.
       const Corners& to = shape_.parts[m.b].hexahedron.corners;
       const Corners image = mirrored(shape_.parts[m.a].hexahedron, m.axis, m.offset).corners;
@@ -123,6 +139,7 @@ class Builder {
         const Vec3 along = box.axes * (t.end - t.start);
         along.cwiseAbs().maxCoeff(&t.axis);
         t.direction = along[t.axis] > 0 ? 1 : -1;
+        t.touching = touch_each_other(shape_.parts[group.parts[0]].hexahedron, group.delta);
         relation = add('t', RelationKind::translation, group.parts, t);
       } else {
         Rotation r{parent, group.centre, group.axis, 0, 0};
@@ -137,46 +154,31 @@ class Builder {
     }
   }
 
-  using Regions = std::map<std::pair<PartIndex, PartIndex>, ContactRegion>;
-
-  /// Where real parts meet; a second look, further away, only between what the first left apart.
-  Regions real_regions() const {
-    Regions regions;
-    const std::size_t real = meshes_.size();
-    std::vector<std::size_t> component(real);
-    std::iota(component.begin(), component.end(), std::size_t{0});
-    const auto join = [&](std::size_t i, std::size_t k) {
-      const std::size_t from = component[k], to = component[i];
-      if (from != to) std::replace(component.begin(), component.end(), from, to);
-    };
-    for (const double distance : {contact_distance, far_contact_distance}) {
-      const std::vector<std::size_t> before = component;
-      for (std::size_t i = 0; i < real; ++i) {
-        for (std::size_t k = i + 1; k < real; ++k) {
-          if (distance > contact_distance && before[i] == before[k]) continue;
-          const PartIndex a(i), b(k);
-          const Hexahedron &ha = shape_.parts[a].hexahedron, &hb = shape_.parts[b].hexahedron;
-          ContactRegion region = contact_region(meshes_[a], ha, meshes_[b], hb, distance);
-          // A part inside another's box is attached even when their surfaces do not come near each other.
-          if (region.empty() && !contains(ha, hb) && !contains(hb, ha)) continue;
-          regions.emplace(std::pair(a, b), std::move(region));
-          join(i, k);
-        }
-      }
+  /// Where real parts meet.
+  Contacts real_contacts() const {
+    PartData<Hexahedron> boxes;
+    MeasuredAxes axes;
+    for (const PartIndex p : meshes_.indices()) {
+      boxes.push_back(shape_.parts[p].hexahedron);
+      axes.push_back({shape_.parts[p].hexahedron.axes});
+      if (const auto parent = parent_of(p)) axes[p].push_back(shape_.parts[*parent].hexahedron.axes);
     }
-    return regions;
+    Contacts contacts = find_contacts(meshes_, boxes, axes);
+    make_alike(contacts, meshes_, boxes, axes, symmetries_);
+    drop_covered(contacts, boxes);
+    return contacts;
   }
 
   /// Between real parts first; a virtual part then inherits the regions of its instances.
   void add_attachments() {
     const auto at = [](PartIndex a, PartIndex b) { return std::pair(std::min(a, b), std::max(a, b)); };
-    Regions regions = real_regions();
+    Contacts regions = real_contacts();
     const auto nodes = [&](PartIndex p) {
       std::vector<PartIndex> out = {p};
       if (const auto parent = parent_of(p)) out.push_back(*parent);
       return out;
     };
-    Regions inherited;
+    Contacts inherited;
     for (const auto& [pair, region] : regions) {
       for (const PartIndex a : nodes(pair.first)) {
         for (const PartIndex b : nodes(pair.second)) {
@@ -199,18 +201,28 @@ class Builder {
     }
   }
 
-  std::optional<PartIndex> parent_of(PartIndex p) const {
-    for (std::size_t g = 0; g < parents_.size(); ++g) {
-      const auto& parts = symmetries_.groups[g].parts;
-      if (std::find(parts.begin(), parts.end(), p) != parts.end()) return parents_[g];
+  /// Of every real part that stands on the floor, and of the groups that have one.
+  void add_ground() {
+    const PartData<Footprint> prints = footprints(meshes_);
+    for (const PartIndex p : shape_.parts.indices()) {
+      std::vector<Footprint> own;
+      for (const PartIndex member : shape_.parts[p].members) own.push_back(prints[member]);
+      if (!shape_.parts[p].is_virtual()) own.push_back(prints[p]);
+      if (std::all_of(own.begin(), own.end(), [](const Footprint& print) { return print.empty(); })) continue;
+      add('g', RelationKind::ground, {p}, ground_contact(shape_.parts[p].hexahedron, own));
     }
-    return std::nullopt;
+  }
+
+  std::optional<PartIndex> parent_of(PartIndex p) const {
+    const auto found = parent_of_.find(p);
+    return found == parent_of_.end() ? std::nullopt : std::optional(found->second);
   }
 
   Shape& shape_;
   const PartData<PartMesh>& meshes_;
   Symmetries symmetries_;
   std::vector<PartIndex> parents_;  ///< one a group
+  std::map<PartIndex, PartIndex> parent_of_;
   std::vector<MirrorPair> parent_mirrors_;
   std::map<char, int> count_;
 };
@@ -223,7 +235,8 @@ Status relabel(PartData<PartMesh>& meshes, const Labels& labels) {
     for (const std::string& key : {node, node + "/" + std::to_string(mesh.primitive)}) {
       const auto found = labels.find(key);
       if (found == labels.end()) continue;
-      mesh.label = clean_label(found->second);
+      mesh.name = found->second;
+      mesh.label = clean_label(mesh.name);
       unused.erase(key);
     }
   }
@@ -249,6 +262,8 @@ Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name
   result.shape.warnings = std::move(imported->warnings);
   result.meshes = std::move(imported->meshes);
   if (Status status = relabel(result.meshes, labels); !status.ok()) return status.error();
+
+  turn_into(own_axes(result.meshes), result.meshes, result.shape.frame);
 
   PartData<Hexahedron> boxes;
   PartData<std::string> keys;

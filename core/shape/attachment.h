@@ -44,10 +44,16 @@ inline constexpr double snap_distance = 0.01;
 /// The clipped surfaces of a contact, by their vertices and the mean by area.
 struct ContactRegion {
   std::vector<Vec3> vertices;
+  Vec3 vertex_sum = Vec3::Zero();  ///< of all vertices, those that reduce() left out too
+  std::size_t vertex_count = 0;
   Vec3 moment = Vec3::Zero();  ///< Σ area · centroid
   double area = 0;
   bool empty() const { return vertices.empty(); }
+  void add(const Vec3& vertex);
   void add(const ContactRegion& other);
+  /// Leaves out the vertices that are the furthest along no row of the axes, either way: what reaches the furthest
+  /// along those stays the same, as does the mean. A region of two detailed meshes has as many vertices as they have.
+  void reduce(const std::vector<Mat3>& axes);
   Vec3 mean() const;
 };
 
@@ -55,7 +61,8 @@ struct ContactRegion {
 ContactRegion contact_region(const PartMesh& a, const Hexahedron& box_a, const PartMesh& b, const Hexahedron& box_b,
                              double distance = contact_distance);
 
-/// Whether all of `inner` lies in `outer` inflated by contact_distance.
+/// Whether all of `inner` lies in `outer` inflated by contact_distance, and its centre in `outer` itself: a sheet that
+/// lies on a face is outside.
 bool contains(const Hexahedron& outer, const Hexahedron& inner);
 
 struct FoundAttachment {
@@ -67,6 +74,12 @@ struct FoundAttachment {
 /// planes and faces of each part on its own where they are within snap_distance, so the two parts' points may lie that
 /// far apart at rest. `a_in_b`, `b_in_a`: contained.
 FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRegion& region, bool a_in_b, bool b_in_a);
+
+/// Points closer than this would be one point twice.
+inline constexpr double distinct_points = 2e-3;
+
+/// Local coordinates of a point, put onto -1, 0 or 1 where they are within snap_distance of them.
+Vec3 local_on_features(const Hexahedron& box, const Vec3& point);
 
 RelationKind attachment_kind(int order);
 

@@ -8,7 +8,7 @@
 #include "core/base/index.h"
 #include "core/shape/part.h"
 #include "core/shape/surface.h"
-#include "core/shape/symmetry.h"
+#include "core/shape/symmetry_options.h"
 
 namespace parsel {
 

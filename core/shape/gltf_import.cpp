@@ -109,26 +109,26 @@ class Importer {
     return success();
   }
 
-  std::string label_of(std::size_t node_index, std::optional<std::size_t> material) const {
+  std::string name_of(std::size_t node_index, std::optional<std::size_t> material) const {
     const gltf::Node& node = document_.nodes[node_index];
     const json& raw = document_.json["nodes"][node_index];
     if (const auto extras = raw.find("extras"); extras != raw.end() && extras->is_object()) {
       const auto label = extras->find("label");
       if (label != extras->end() && label->is_string() && !label->get_ref<const std::string&>().empty()) {
-        return clean_label(label->get_ref<const std::string&>());
+        return label->get_ref<const std::string&>();
       }
     }
-    if (!node.name.empty()) return clean_label(node.name);
+    if (!node.name.empty()) return node.name;
     const std::string& mesh = document_.meshes[*node.mesh].name;
-    if (!mesh.empty()) return clean_label(mesh);
+    if (!mesh.empty()) return mesh;
     const auto materials = document_.json.find("materials");
     if (material && materials != document_.json.end() && materials->is_array() && *material < materials->size()) {
       const json& entry = (*materials)[*material];
-      if (entry.is_object())
-        return clean_label(
-            entry.contains("name") && entry["name"].is_string() ? entry["name"].get_ref<const std::string&>() : "");
+      if (entry.is_object() && entry.contains("name") && entry["name"].is_string()) {
+        return entry["name"].get_ref<const std::string&>();
+      }
     }
-    return clean_label("");
+    return "";
   }
 
   Status read_primitive(std::size_t node, std::size_t index) {
@@ -179,7 +179,8 @@ class Importer {
     }
 
     PartMesh part;
-    part.label = label_of(node, primitive.material);
+    part.name = name_of(node, primitive.material);
+    part.label = clean_label(part.name);
     part.node = static_cast<int>(node);
     part.primitive = static_cast<int>(index);
     part.world = scene_.world[node].matrix();

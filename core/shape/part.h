@@ -19,6 +19,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// One primitive of one node's mesh. Instances of a mesh are parts of their own, each with its own copy.
 struct PartMesh {
   std::string label;              ///< as given in the file, without counters
+  std::string name;               ///< as given in the file
   int node = -1;                  ///< glTF node index
   int primitive = -1;             ///< index of the primitive in the node's mesh
   Mat4 world = Mat4::Identity();  ///< of the node, column vectors, in model units: model = world · (x, y, z, 1)

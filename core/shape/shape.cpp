@@ -9,8 +9,8 @@
 namespace parsel {
 namespace {
 
-constexpr std::array<std::string_view, 7> kind_names = {"reflection", "translation", "rotation", "point",
-                                                        "line",       "face",        "volume"};
+constexpr std::array<std::string_view, 8> kind_names = {"reflection", "translation", "rotation", "point",
+                                                        "line",       "face",        "volume",   "ground"};
 
 /// The group that a part stands for or belongs to was dissolved.
 bool is_dissolved(const Part& part, const std::vector<RelationIndex>& dissolved) {

@@ -32,14 +32,16 @@ struct Part {
   bool is_virtual() const { return !members.empty(); }
 };
 
-enum class RelationKind { reflection, translation, rotation, point, line, face, volume };
+enum class RelationKind { reflection, translation, rotation, point, line, face, volume, ground };
 
 /// parts = {a, b}, mirror images of each other about the plane.
 struct Reflection {
   Vec3 origin = Vec3::Zero();   ///< a point of the plane
-  Vec3 normal = Vec3::UnitX();  ///< unit, a global axis
+  Vec3 normal = Vec3::UnitX();  ///< unit, an axis of the normalised frame
   /// Corner k of part b is the mirror image of corner corner_map[k] of part a.
   std::array<int, 8> corner_map = {0, 1, 2, 3, 4, 5, 6, 7};
+  /// One above the other: alike in shape, but the floor tells them apart, so a change of height need not mirror.
+  bool stacked = false;
 };
 
 /// parts = the instances in order, at equal distances. Over-parameterised (supplement §3.2): start, middle (their
@@ -50,6 +52,7 @@ struct Translation {
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();  ///< centres of the first and the last instance
   int axis = 0;                                   ///< local axis of the parent that delta is most along
   int direction = 1;                              ///< 1 when delta points along +axis, else -1
+  bool touching = false;                          ///< each instance touches the next: what widens one moves the others
 };
 
 /// parts = the instances in order of angle, a closed loop: instance k is instance 0 turned by k · 2π/count about the
@@ -62,22 +65,41 @@ struct Rotation {
   double radius = 0;           ///< distance of the instances' centres from the axis
 };
 
+/// Where two parts touch: a rectangle that lies on both surfaces, a line or a point where its half sides are 0. Within
+/// it a part may slide along the other without a gap.
+struct ContactPatch {
+  Vec3 centre = Vec3::Zero();        ///< at rest, in the normalised frame
+  Vec3 normal = Vec3::UnitY();       ///< unit, out of part a into part b
+  std::array<Vec3, 2> half_sides{};  ///< from the centre to the middle of a side, at right angles to each other
+  /// The corners centre ± half_sides[0] ± half_sides[1] in local coordinates of each part; the first sign is that of
+  /// bit 0 of the index, the second that of bit 1.
+  std::array<Vec3, 4> local_a{}, local_b{};
+};
+
 /// parts = {a, b}; the same points seen from both.
 struct Attachment {
   std::vector<Vec3> points;   ///< 1, 2, 4 or 8 at rest, in the normalised frame
   std::vector<Vec3> local_a;  ///< the same in local coordinates of part a
   std::vector<Vec3> local_b;  ///< … and of part b
+  /// None where one part is inside the other, or in a shape of which it is not known.
+  std::optional<ContactPatch> patch = std::nullopt;
+};
+
+/// parts = {a}; a stands on the floor: these points keep their height. See core/shape/ground.h.
+struct Ground {
+  std::vector<Vec3> points;  ///< 1, 2 or 4 at rest, in the normalised frame, all at a's lowest height
+  std::vector<Vec3> local;   ///< the same in local coordinates of a
 };
 
 struct Relation {
   std::string id;
   RelationKind kind;
   std::vector<PartIndex> parts;
-  std::variant<Reflection, Translation, Rotation, Attachment> detail;
+  std::variant<Reflection, Translation, Rotation, Attachment, Ground> detail;
 
   bool is_symmetry() const { return kind <= RelationKind::rotation; }
   bool is_group() const { return kind == RelationKind::translation || kind == RelationKind::rotation; }
-  bool is_attachment() const { return kind >= RelationKind::point; }
+  bool is_attachment() const { return kind >= RelationKind::point && kind <= RelationKind::volume; }
 };
 
 /// The virtual part of a translation or rotation.
@@ -106,7 +128,7 @@ struct Shape {
 // count depends on whether the group stands or was dissolved (supplement §3.1.2: an edit of one instance dissolves it).
 //   * A part is active unless it is an instance of a standing group or the parent of a dissolved one.
 //   * A translation or rotation is active while its group stands; it then ties its instances to its parent.
-//   * Any other relation is active when both its parts are.
+//   * Any other relation is active when all its parts are.
 // `dissolved` lists translations and rotations; an empty list means that every group stands.
 
 bool is_active(const Shape& shape, PartIndex part, const std::vector<RelationIndex>& dissolved = {});

@@ -1,9 +1,12 @@
 // Format `parsel/shape` v1.
 //
-// Relations: {"id","kind","parts":[ids], …} with, for reflection, "origin", "normal", "corner_map"; translation,
-// "parent", "start", "end", "count", "delta", "axis", "direction"; rotation, "parent", "centre", "axis", "parent_axis",
-// "radius", "count", "angle", "arc"; attachments, "points", "local_a", "local_b". A part may have "group": the id of
-// its relation. "count", "delta", "angle" and "arc" follow from the rest and are not read back.
+// Frame: "centre", "scale" and, where the model does not stand along the file's axes, "axes", three rows.
+// Relations: {"id","kind","parts":[ids], …} with, for reflection, "origin", "normal", "corner_map", "stacked" where
+// true; translation, "parent", "start", "end", "count", "delta", "axis", "direction", "touching" where true; rotation,
+// "parent", "centre", "axis", "parent_axis", "radius", "count", "angle", "arc"; attachments, "points", "local_a",
+// "local_b"; ground, "points", "local". Attachments may have "patch": {"centre", "normal", "half_sides", "local_a",
+// "local_b"}. A part may have "group": the id of its relation. "count", "delta", "angle" and "arc" follow from the rest
+// and are not read back.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -68,6 +71,13 @@ int integer(const json& object, const char* name, const std::string& place) {
   if (!good) throw Malformed{place, std::string("'") + name + "' is not an integer in range"};
   return value.get<int>();
 }
+/// A member that says something special, and is left out where there is nothing to say.
+bool flag(const json& object, const char* name, const std::string& place) {
+  const auto found = object.find(name);
+  if (found == object.end()) return false;
+  if (!found->is_boolean()) throw Malformed{place, std::string("'") + name + "' is neither true nor false"};
+  return found->get<bool>();
+}
 Vec3 vector(const json& value, const std::string& place) {
   if (!value.is_array() || value.size() != 3) throw Malformed{place, "a vector of 3 numbers was expected"};
   return {number(value[0], place), number(value[1], place), number(value[2], place)};
@@ -78,16 +88,55 @@ std::vector<Vec3> points(const json& object, const char* name, const std::string
   return out;
 }
 
+template <std::size_t count>
+std::array<Vec3, count> points_of(const json& object, const char* name, const std::string& place) {
+  const std::vector<Vec3> read = points(object, name, place);
+  if (read.size() != count) throw Malformed{place, std::string("'") + name + "' has another number of points"};
+  std::array<Vec3, count> out;
+  std::copy(read.begin(), read.end(), out.begin());
+  return out;
+}
+
+ContactPatch patch(const json& entry, const std::string& place) {
+  return {vector(member(entry, "centre", place), place), vector(member(entry, "normal", place), place),
+          points_of<2>(entry, "half_sides", place), points_of<4>(entry, "local_a", place),
+          points_of<4>(entry, "local_b", place)};
+}
+
+json axes_json(const Mat3& axes) {
+  json out = json::array();
+  for (int i = 0; i < 3; ++i) out.push_back(vector_json(axes.row(i).transpose()));
+  return out;
+}
+
 json part_json(const Shape& shape, const Part& part) {
-  json corners = json::array(), axes = json::array(), members = json::array();
+  json corners = json::array(), members = json::array();
   for (int k = 0; k < 8; ++k) corners.push_back(vector_json(part.hexahedron.corners.row(k).transpose()));
-  for (int i = 0; i < 3; ++i) axes.push_back(vector_json(part.hexahedron.axes.row(i).transpose()));
   for (const PartIndex p : part.members) members.push_back(shape.parts[p].id);
-  json out = {{"id", part.id},     {"label", part.label},          {"name", part.name},
-              {"node", part.node}, {"primitive", part.primitive},  {"corners", corners},
-              {"axes", axes},      {"virtual", part.is_virtual()}, {"members", members}};
+  json out = {{"id", part.id},
+              {"label", part.label},
+              {"name", part.name},
+              {"node", part.node},
+              {"primitive", part.primitive},
+              {"corners", corners},
+              {"axes", axes_json(part.hexahedron.axes)},
+              {"virtual", part.is_virtual()},
+              {"members", members}};
   if (part.group) out["group"] = shape.relations[*part.group].id;
   return out;
+}
+
+template <std::size_t count>
+json points_json(const std::array<Vec3, count>& points) {
+  return points_json(std::vector<Vec3>(points.begin(), points.end()));
+}
+
+json patch_json(const ContactPatch& patch) {
+  return {{"centre", vector_json(patch.centre)},
+          {"normal", vector_json(patch.normal)},
+          {"half_sides", points_json(patch.half_sides)},
+          {"local_a", points_json(patch.local_a)},
+          {"local_b", points_json(patch.local_b)}};
 }
 
 json relation_json(const Shape& shape, const Relation& relation) {
@@ -99,6 +148,7 @@ json relation_json(const Shape& shape, const Relation& relation) {
     out["origin"] = vector_json(r->origin);
     out["normal"] = vector_json(r->normal);
     out["corner_map"] = r->corner_map;
+    if (r->stacked) out["stacked"] = true;
   } else if (const auto* t = std::get_if<Translation>(&relation.detail)) {
     out["parent"] = shape.parts[t->parent].id;
     out["start"] = vector_json(t->start);
@@ -107,6 +157,7 @@ json relation_json(const Shape& shape, const Relation& relation) {
     out["delta"] = vector_json((t->end - t->start) / static_cast<double>(count - 1));
     out["axis"] = t->axis;
     out["direction"] = t->direction;
+    if (t->touching) out["touching"] = true;
   } else if (const auto* o = std::get_if<Rotation>(&relation.detail)) {
     out["parent"] = shape.parts[o->parent].id;
     out["centre"] = vector_json(o->centre);
@@ -120,6 +171,10 @@ json relation_json(const Shape& shape, const Relation& relation) {
     out["points"] = points_json(a->points);
     out["local_a"] = points_json(a->local_a);
     out["local_b"] = points_json(a->local_b);
+    if (a->patch) out["patch"] = patch_json(*a->patch);
+  } else if (const auto* g = std::get_if<Ground>(&relation.detail)) {
+    out["points"] = points_json(g->points);
+    out["local"] = points_json(g->local);
   }
   return out;
 }
@@ -133,6 +188,11 @@ class Reader {
     shape_.sha256 = text(file, "sha256", "/");
     shape_.frame.centre = vector(member(member(file, "frame", "/"), "centre", "/frame"), "/frame/centre");
     shape_.frame.scale = number(member(file["frame"], "scale", "/frame"), "/frame/scale");
+    if (file["frame"].contains("axes")) {
+      const std::vector<Vec3> axes = points(file["frame"], "axes", "/frame");
+      if (axes.size() != 3) throw Malformed{"/frame/axes", "a frame has 3 axes"};
+      for (int i = 0; i < 3; ++i) shape_.frame.axes.row(i) = axes[static_cast<std::size_t>(i)].transpose();
+    }
     const json &parts = array(file, "parts", "/"), &relations = array(file, "relations", "/");
     for (std::size_t i = 0; i < parts.size(); ++i) read_part(parts[i], "/parts/" + std::to_string(i));
     for (std::size_t i = 0; i < relations.size(); ++i) read_relation(relations[i], "/relations/" + std::to_string(i));
@@ -188,20 +248,24 @@ class Reader {
       if (map.size() != 8) throw Malformed{place, "a corner map has 8 entries"};
       for (std::size_t k = 0; k < 8; ++k)
         r.corner_map[k] = static_cast<int>(std::clamp(number(map[k], place), -1.0, 8.0));
+      r.stacked = flag(entry, "stacked", place);
       relation.detail = r;
     } else if (*kind == RelationKind::translation) {
       relation.detail =
           Translation{part(member(entry, "parent", place), place), vector(member(entry, "start", place), place),
-                      vector(member(entry, "end", place), place), integer(entry, "axis", place),
-                      integer(entry, "direction", place)};
+                      vector(member(entry, "end", place), place),  integer(entry, "axis", place),
+                      integer(entry, "direction", place),          flag(entry, "touching", place)};
     } else if (*kind == RelationKind::rotation) {
       relation.detail =
           Rotation{part(member(entry, "parent", place), place), vector(member(entry, "centre", place), place),
                    vector(member(entry, "axis", place), place), integer(entry, "parent_axis", place),
                    number(member(entry, "radius", place), place)};
+    } else if (*kind == RelationKind::ground) {
+      relation.detail = Ground{points(entry, "points", place), points(entry, "local", place)};
     } else {
-      relation.detail =
-          Attachment{points(entry, "points", place), points(entry, "local_a", place), points(entry, "local_b", place)};
+      Attachment a{points(entry, "points", place), points(entry, "local_a", place), points(entry, "local_b", place)};
+      if (entry.contains("patch")) a.patch = patch(entry["patch"], place + "/patch");
+      relation.detail = std::move(a);
     }
     relation_by_id_.emplace(relation.id, RelationIndex(shape_.relations.size()));
     shape_.relations.push_back(std::move(relation));
@@ -219,14 +283,10 @@ json to_json(const Shape& shape) {
   for (const Part& part : shape.parts) parts.push_back(part_json(shape, part));
   for (const Relation& relation : shape.relations) relations.push_back(relation_json(shape, relation));
   for (const Warning& warning : shape.warnings) warnings.push_back({{"place", warning.place}, {"text", warning.text}});
-  return {{"format", "parsel/shape"},
-          {"version", 1},
-          {"name", shape.name},
-          {"sha256", shape.sha256},
-          {"frame", {{"centre", vector_json(shape.frame.centre)}, {"scale", shape.frame.scale}}},
-          {"parts", parts},
-          {"relations", relations},
-          {"warnings", warnings}};
+  json frame = {{"centre", vector_json(shape.frame.centre)}, {"scale", shape.frame.scale}};
+  if (shape.frame.axes != Mat3::Identity()) frame["axes"] = axes_json(shape.frame.axes);
+  return {{"format", "parsel/shape"}, {"version", 1},   {"name", shape.name},     {"sha256", shape.sha256},
+          {"frame", frame},           {"parts", parts}, {"relations", relations}, {"warnings", warnings}};
 }
 
 Result<Shape> shape_from_json(const json& file) {

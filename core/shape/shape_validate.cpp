@@ -25,6 +25,11 @@ class Validator {
     if (!shape_.frame.centre.allFinite() || !(shape_.frame.scale > 0) || !std::isfinite(shape_.frame.scale)) {
       return wrong("frame", "it is not finite and positive");
     }
+    const Mat3& axes = shape_.frame.axes;
+    if (!((axes * axes.transpose() - Mat3::Identity()).cwiseAbs().maxCoeff() <= symmetry_slack) ||
+        !(axes.determinant() > 0)) {
+      return wrong("frame", "its axes are not unit, perpendicular and right-handed");
+    }
     std::set<std::string> ids;
     for (const PartIndex p : shape_.parts.indices()) {
       if (shape_.parts[p].id.empty() || !ids.insert(shape_.parts[p].id).second) {
@@ -86,9 +91,11 @@ class Validator {
     const std::size_t wanted = relation.kind == RelationKind::reflection    ? 0
                                : relation.kind == RelationKind::translation ? 1
                                : relation.kind == RelationKind::rotation    ? 2
+                               : relation.kind == RelationKind::ground      ? 4
                                                                             : 3;
     if (relation.detail.index() != wanted) return wrong(relation.id, "its fields are not those of its kind");
     if (relation.is_group()) return check_group(index);
+    if (relation.kind == RelationKind::ground) return check_ground(relation);
     if (relation.parts.size() != 2) return wrong(relation.id, "it does not join two parts");
     return relation.kind == RelationKind::reflection ? check_reflection(relation) : check_attachment(relation);
   }
@@ -176,6 +183,37 @@ class Validator {
                    off_b = (hb.point(a.local_b[i]) - a.points[i]).norm();
       if (!(off_a <= attachment_slack) || !(off_b <= attachment_slack)) {
         return wrong(relation.id, "point " + std::to_string(i) + " is not where its parts have it at rest");
+      }
+    }
+    if (a.patch && !is_patch(*a.patch, ha, hb))
+      return wrong(relation.id, "its patch is no rectangle on both its parts");
+    return success();
+  }
+
+  static bool is_patch(const ContactPatch& patch, const Hexahedron& a, const Hexahedron& b) {
+    const auto& [first, second] = patch.half_sides;
+    const double off = std::max({std::abs(patch.normal.norm() - 1), std::abs(patch.normal.dot(first)),
+                                 std::abs(patch.normal.dot(second)), std::abs(first.dot(second))});
+    if (!(off <= symmetry_slack)) return false;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3 corner =
+          patch.centre + corner_sign(static_cast<int>(k), 0) * first + corner_sign(static_cast<int>(k), 1) * second;
+      if (!((a.point(patch.local_a[k]) - corner).norm() <= attachment_slack)) return false;
+      if (!((b.point(patch.local_b[k]) - corner).norm() <= attachment_slack)) return false;
+    }
+    return true;
+  }
+
+  Status check_ground(const Relation& relation) const {
+    const Ground& ground = std::get<Ground>(relation.detail);
+    if (relation.parts.size() != 1) return wrong(relation.id, "one part stands on the floor");
+    if (ground.points.empty() || ground.points.size() > 4 || ground.local.size() != ground.points.size()) {
+      return wrong(relation.id, "it has not 1 to 4 points, each with local coordinates");
+    }
+    const Hexahedron& h = shape_.parts[relation.parts[0]].hexahedron;
+    for (std::size_t i = 0; i < ground.points.size(); ++i) {
+      if (!((h.point(ground.local[i]) - ground.points[i]).norm() <= attachment_slack)) {
+        return wrong(relation.id, "point " + std::to_string(i) + " is not where its part has it at rest");
       }
     }
     return success();

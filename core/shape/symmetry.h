@@ -13,10 +13,13 @@
 //      not along a global axis (a stair, a leaning ladder) counts only when no other line crosses it: five legs, one of
 //      them in the middle, are no two diagonals.
 //      A part is in at most one translation or rotation group; there are no groups of groups.
-//   3. Reflection about planes x, y or z = constant, pair by pair. For each set of congruent parts and each axis at
-//      most one plane: the middle plane of the shape when it pairs any of them, else the set's own middle plane when that
-//      maps the whole set onto itself. Parts of one group are not paired with each other; two groups are paired when
-//      all their instances are.
+//   3. Reflection about planes x, y or z = constant, pair by pair. For each kind and axis, the middle plane of the
+//      shape takes what it pairs; parts in line with each other of which it pairs none are paired about their own middle when
+//      all of them have an image there. Parts of one group are not paired with each other; two groups are paired when
+//      all their instances are, about one plane; a pair of an instance and a part of no group counts once an edit
+//      dissolves the group.
+// Parts are of one kind when their grouping keys are equal. What nothing ties then is looked at once more for mirror
+// images among parts of one size whose keys differ by little (alike()): "lega" and "legb", "side" and "sideboard".
 #pragma once
 
 #include <string>
@@ -26,16 +29,9 @@
 #include "core/base/index.h"
 #include "core/shape/hexahedron.h"
 #include "core/shape/part.h"
+#include "core/shape/symmetry_options.h"
 
 namespace parsel {
-
-struct SymmetryOptions {
-  double position = 0.01;  ///< centres may be off by this much, normalised; below δ = 0.0144
-  double surface = 0.05;   ///< a surface may be off by this share of the part's half-diagonal, at most `position` …
-  double finest = 0.002;   ///< … and need not be closer than this
-  double agreeing = 0.95;  ///< share of the samples that must lie on the other surface
-  std::size_t samples = 200;
-};
 
 /// Part b is the image of part a about the plane `coordinate[axis] = offset`; a < b.
 struct MirrorPair {

@@ -24,7 +24,7 @@ Vec3 centre(const Part& part) {
   return part.hexahedron.point(Vec3::Zero());
 }
 
-/// Whether an id's words are those of the name, in any order: then the name adds nothing.
+/// Whether an id's words are those of the name, in any order and case: then the name adds nothing.
 bool says_the_same(const std::string& id, const std::string& name) {
   const auto words = [](const std::string& text) {
     std::vector<std::string> out(1);
@@ -32,7 +32,7 @@ bool says_the_same(const std::string& id, const std::string& name) {
       if (c == '_' || c == ' ' || c == '-') {
         out.emplace_back();
       } else {
-        out.back() += c;
+        out.back() += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
       }
     }
     std::sort(out.begin(), out.end());
@@ -122,11 +122,22 @@ std::string quoted_name(std::string_view name) {
 std::string describe(const Shape& shape, RelationIndex index) {
   const Relation& relation = shape.relations[index];
   if (relation.is_group()) return group_words(shape, relation);
+  if (relation.kind == RelationKind::ground) return shape.parts[relation.parts[0]].id + " stands on the floor";
   const std::string pair = shape.parts[relation.parts[0]].id + " and " + shape.parts[relation.parts[1]].id;
   if (const auto* r = std::get_if<Reflection>(&relation.detail)) {
     return pair + " are mirror images of each other, " + sides[static_cast<std::size_t>(main_axis(r->normal))];
   }
   return pair + " are joined " + joint_words(relation.kind);
+}
+
+std::string describe_ground(const Shape& shape) {
+  std::string text;
+  for (const RelationIndex r : active_relations(shape)) {
+    if (shape.relations[r].kind != RelationKind::ground) continue;
+    text +=
+        (text.empty() ? "" : ", ") + shape.parts[shape.relations[r].parts[0]].id + " (" + shape.relations[r].id + ")";
+  }
+  return text.empty() ? text : "On the floor stand (relation): " + text + ".\n";
 }
 
 std::string describe(const Shape& shape) {

@@ -14,6 +14,10 @@ namespace parsel {
 /// where the id does not say the same; groups with their instances; joints collected by part.
 std::string describe(const Shape& shape);
 
+/// What stands on the floor, in one line; empty when nothing does. Apart from describe(), whose text prompts are made
+/// of: what was recorded for a prompt is found again by its bytes.
+std::string describe_ground(const Shape& shape);
+
 /// One relation as a sentence without a full stop: "leg_left and leg_right are mirror images of each other, left and
 /// right".
 std::string describe(const Shape& shape, RelationIndex relation);

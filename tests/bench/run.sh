@@ -45,6 +45,8 @@ done
 "$tool" gallery "$output" --wall 100
 measure node "$root/tests/bench/core.bench.mjs" "$output"/shelf_wall_100.glb
 measure node --expose-gc "$root/tests/bench/program.bench.mjs"
+measure node "$root/tests/bench/runtime.bench.mjs"
+measure node "$root/web/runtime/build.mjs" --figures
 measure node "$root/web/tools/sizes.mjs" --figures
 if ! has chromium && ! has google-chrome; then need "chromium chromium"; fi
 npm --prefix "$root/web" run --silent bench:page | grep '^page,' | tee -a "$figures"

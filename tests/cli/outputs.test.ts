@@ -68,6 +68,64 @@ describe('outputs of the gallery', () => {
   );
 });
 
+describe('outputs of CAD programs', () => {
+  accepted('gallery', folder);
+  const programs = readdirSync(folder).filter((file) => file.endsWith('.scad'));
+  it('there are five', () => expect(programs.length).toBe(5));
+  it.each(programs)(
+    '%s: every output is taken',
+    (program) => {
+      const variations = program.replace('.scad', '.variations.json');
+      accepted('cad', program, '-o', 'cad.json');
+      accepted('cad', 'cad.json', '-o', 'cad-again.json');
+      expect(read('cad-again.json')).toEqual(read('cad.json'));
+      accepted('cad', 'cad.json', '-o', 'flat.scad');
+      accepted('cad', 'flat.scad', '-o', 'flat-again.scad');
+      expect(readFileSync(join(folder, 'flat-again.scad'))).toEqual(readFileSync(join(folder, 'flat.scad')));
+      accepted('cad', program, '-o', 'cad.glb');
+      accepted('inspect', 'cad.glb', '-o', 'shape.json');
+      const ids = (file: string) => read(file).parts.filter((part: { virtual?: boolean }) => !part.virtual);
+      expect(ids('shape.json').length).toBe(ids('cad.json').length);
+      const more = ['--program', 'sliders.json', '--scad', 'family.scad', '--sets', 'sets.json'];
+      for (const from of [program, 'cad.json'])
+        accepted('family', from, '--variations', variations, '-o', 'family.json', ...more);
+      const { counts, sliders } = read('family.json');
+      expect(counts.sliders).toBe(sliders.length);
+      expect(counts.sliders).toBeLessThan(counts.parameters);
+      expect(read('sliders.json').layers.length).toBe(sliders.length);
+      expect(Object.keys(read('sets.json').parameterSets).length).toBe(read(variations).variations.length);
+      accepted('evaluate', 'shape.json', 'sliders.json', '-o', 'state.json');
+      accepted(
+        'apply',
+        'cad.glb',
+        'sliders.json',
+        '--set',
+        `x1=${read('sliders.json').layers[0].parameter.max}`,
+        '-o',
+        'moved.glb',
+      );
+      accepted('convert', 'sliders.json', '-o', 'sliders.txt');
+      accepted('cad', 'family.scad', '-o', 'cad-base.json');
+      expect(read('cad-base.json').parts.length).toBe(read('cad.json').parts.length);
+      expect(read('cad-base.json').ranges.length).toBe(sliders.length);
+      accepted('family', program, '-o', 'family.json');
+      accepted('family', program, '--variations', variations, '--select', 'ranking', '-o', 'family.json');
+    },
+    120_000,
+  );
+
+  it('refuses by name and line', () => {
+    write('bad.scad', 'cube(1);\nminkowski() { cube(1); sphere(1); }\n');
+    const { code, said } = parsel('cad', 'bad.scad');
+    expect(code).toBe(1);
+    expect(said).toContain('bad.scad, line 2, column 1: minkowski is not read');
+    write('bad.json', '{"format":"parsel/variations","version":1,"variations":[{"name":"a","absent":["nobody"]}]}');
+    const wrong = parsel('family', 'chair.scad', '--variations', 'bad.json');
+    expect(wrong.code).toBe(1);
+    expect(wrong.said).toContain('bad.json, /variations/0/absent: the model has no part "nobody"');
+  });
+});
+
 const hunt = join(process.env.PARSEL_DATA ?? '', 'hunt');
 const edits =
   process.env.PARSEL_DATA && existsSync(hunt) ? readdirSync(hunt).filter((file) => file.endsWith('.edit.json')) : [];

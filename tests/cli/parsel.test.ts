@@ -78,7 +78,18 @@ function unpack(glb: string, gltf: string, bin: string) {
 describe('parsel', () => {
   it('lists its commands and tells its version', () => {
     const help = run('--help');
-    for (const command of ['inspect', 'propagate', 'apply', 'check', 'score', 'convert', 'evaluate', 'gallery'])
+    for (const command of [
+      'inspect',
+      'propagate',
+      'apply',
+      'check',
+      'score',
+      'convert',
+      'evaluate',
+      'cad',
+      'family',
+      'gallery',
+    ])
       expect(help).toContain(`parsel ${command}`);
     expect(run('--version')).toMatch(/\d+\.\d+\.\d+/);
   });
@@ -207,6 +218,23 @@ describe('parsel', () => {
     const [, keys, worst] = /shape keys (\d+), worst (\S+)/.exec(said) ?? [];
     expect(Number(keys)).toBeGreaterThan(0);
     expect(Number(worst)).toBeLessThan(1e-4);
+  });
+
+  it('read says what a plain request means, and when it is not sure what may be meant', () => {
+    const read = (...given: string[]) => runJson('read', 'chair.glb', '--request', ...given);
+    const wider = read('make the seat 10 cm wider');
+    expect(wider.plain).toMatchObject({ sure: true, unused: [], reason: null });
+    expect(wider.edit.seed).toMatchObject([{ op: 'scale_1d', part: 'seat', direction: [1, 0, 0], amount: 'x' }]);
+    expect(wider.plain.readings[0].target).toMatchObject({ part: 'seat', what: 'width', by: 0.1 });
+    write('read.json', wider.edit);
+    expect(runJson('propagate', 'chair.glb', 'read.json').layers[0].statements.length).toBeGreaterThan(1);
+    expect(read('longer', '--mention', 'leg_front_left').edit.seed).toMatchObject([{ part: 'leg_front_left' }]);
+    expect(read('make it nicer')).toMatchObject({
+      edit: null,
+      plain: { sure: false, unused: ['nicer'], readings: [] },
+    });
+    expect(refusal('read', 'chair.glb', '--request', ' ')).toMatchObject({ code: 1 });
+    expect(refusal('read', 'chair.glb')).toMatchObject({ code: 2 });
   });
 
   it('score gives a program full marks against itself and fewer against another', () => {

@@ -49,6 +49,18 @@ class BoxShape {
     return relate("r", ++reflections_, {RelationKind::reflection, {a, b}, reflection});
   }
 
+  /// The part's lowest corners keep their height.
+  std::string stand(PartIndex part) {
+    const Hexahedron& box = shape_.parts[part].hexahedron;
+    Ground ground;
+    for (int k = 0; k < 8; ++k) {
+      if (box.corners(k, 1) > box.corners.col(1).minCoeff() + 1e-9) continue;
+      ground.points.push_back(box.corners.row(k).transpose());
+      ground.local.push_back(box.local(ground.points.back()));
+    }
+    return relate("g", ++grounds_, {RelationKind::ground, {part}, ground});
+  }
+
   /// A row of equal boxes from `start` to `end`, with their parent. Returns the parent.
   PartIndex row(const std::string& id, int count, const Vec3& start, const Vec3& end, const Vec3& half, int axis) {
     std::vector<PartIndex> members;
@@ -110,10 +122,10 @@ class BoxShape {
   }
 
   Shape shape_;
-  int attachments_ = 0, reflections_ = 0, translations_ = 0, rotations_ = 0;
+  int attachments_ = 0, reflections_ = 0, translations_ = 0, rotations_ = 0, grounds_ = 0;
 };
 
-/// A seat on four legs (two reflections), tied by a bar left to right between the front legs; a back on the seat.
+/// A seat on four legs (two reflections) that stand on the floor, tied by a bar left to right between the front legs; a back on the seat.
 inline Shape chair() {
   BoxShape s;
   const PartIndex seat = s.box("seat", {0, 0, 0}, {0.4, 0.05, 0.4});
@@ -123,6 +135,7 @@ inline Shape chair() {
       const std::string id = std::string("leg_") + (z > 0 ? "front_" : "back_") + (x > 0 ? "left" : "right");
       legs.push_back(s.box(id, {0.3 * x, -0.35, 0.3 * z}, {0.03, 0.3, 0.03}));
       s.attach(seat, legs.back(), {{0.3 * x, -0.05, 0.3 * z}});
+      s.stand(legs.back());
     }
   }
   s.reflect(legs[0], legs[1], 0);

@@ -70,13 +70,14 @@ inline GalleryRelation as_gallery_relation(const Shape& shape, const Relation& r
 }  // namespace detail
 
 /// One line for every relation that only one side has ("missing …", "unexpected …"), sorted; empty when they agree.
-/// Attachments of single instances of a group are left out: they count only once an edit dissolves the group.
+/// Attachments and ground of single instances of a group are left out: they count only once an edit dissolves the
+/// group.
 inline std::vector<std::string> relation_differences(const GalleryAsset& asset, const Shape& shape) {
   std::multiset<std::string> expected, found;
   for (const GalleryRelation& relation : asset.relations) expected.insert(detail::relation_text(asset, relation));
   const auto is_instance = [&](PartIndex p) { return shape.parts[p].group && !shape.parts[p].is_virtual(); };
   for (const Relation& relation : shape.relations) {
-    if (relation.is_attachment() && std::any_of(relation.parts.begin(), relation.parts.end(), is_instance)) continue;
+    if (!relation.is_symmetry() && std::any_of(relation.parts.begin(), relation.parts.end(), is_instance)) continue;
     found.insert(detail::relation_text(asset, detail::as_gallery_relation(shape, relation)));
   }
   std::vector<std::string> missing, unexpected, lines;

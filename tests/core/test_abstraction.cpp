@@ -100,7 +100,7 @@ TEST_CASE("labels that a person gives take the place of the file's, and symmetry
 TEST_CASE("degenerate parts take part: panels, wires, parts inside others, duplicates, a single part") {
   const auto one = fixture::shape({{"block", box({0, 0, 0}, {1, 1, 1})}});
   CHECK(one.parts.size() == 1);
-  CHECK(one.relations.empty());
+  CHECK(fixture::relations(one) == std::vector<std::string>{"ground block"});
 
   fixture::Mesh wire;
   wire.positions = {{-1, 0.5, 0}, {1, 0.5, 0}, {0, 0.5, 0}};

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "box_shapes.h"
 #include "core/check/check.h"
@@ -40,6 +41,15 @@ double moved(const Shape& shape, const Propagation& found, PartIndex part) {
   return (state.parts[part] - shape.parts[part].hexahedron.corners).cwiseAbs().maxCoeff();
 }
 
+/// The states in which a program leaves the relations of parts that stand on the floor.
+std::set<RelationStatus> feet(const Shape& shape, const Propagation& found) {
+  std::set<RelationStatus> states;
+  for (const RelationReport& report : found.program.layers[0].relations) {
+    if (shape.relations[*shape.find_relation(report.id)].kind == RelationKind::ground) states.insert(report.status);
+  }
+  return states;
+}
+
 }  // namespace
 
 TEST_CASE("a seat that is raised stretches its legs and takes its back along; the feet stay on the floor") {
@@ -53,11 +63,18 @@ TEST_CASE("a seat that is raised stretches its legs and takes its back along; th
     CHECK(state.parts[part(leg)].col(1).maxCoeff() == doctest::Approx(0.15));
   }
   CHECK(moved(shape, found, part("back")) == doctest::Approx(0.2));
+  CHECK(feet(shape, found) == std::set{RelationStatus::held});
 
   SUBCASE("without them the whole chair leaves the floor") {
     const Propagation without = run(shape, edit, false);
     const State flying = Evaluator(without.program, shape)({0.2});
     CHECK(flying.parts[part("leg_front_left")].col(1).minCoeff() == doctest::Approx(-0.45));
+    CHECK(feet(shape, without) == std::set{RelationStatus::broken});
+  }
+  SUBCASE("a floor that does not count is said to be disabled") {
+    json free = edit;
+    free["disabled"] = {"kind:ground"};
+    CHECK(feet(shape, run(shape, free)) == std::set{RelationStatus::disabled});
   }
 }
 

@@ -28,7 +28,9 @@ TEST_CASE("a leg is attached to a top at a point, a back to a seat along a line,
   const Shape table = fixture::shape(fixture::table());
   CHECK(attached(table, "leg_front_left", "top") == "point");
   CHECK(fixture::count(table, RelationKind::point) == 4);
-  CHECK(table.relations.size() == 8);
+  CHECK(fixture::count(table, RelationKind::reflection) == 4);
+  CHECK(fixture::count(table, RelationKind::ground) == 4);
+  CHECK(table.relations.size() == 12);
 
   const Shape chair = fixture::shape(
       {{"seat", box({0, 0.45, 0}, {0.5, 0.04, 0.5})}, {"back", box({0, 0.72, -0.23}, {0.5, 0.5, 0.04})}});

@@ -111,7 +111,8 @@ TEST_CASE("JSON that is no shape is refused by name") {
         CAPTURE(list);
         CAPTURE(i);
         CAPTURE(key);
-        CHECK(refused([&](nlohmann::json& j) { j[list][i].erase(key); }));
+        const bool is_optional = key == "patch";
+        CHECK(refused([&](nlohmann::json& j) { j[list][i].erase(key); }) == !is_optional);
         CHECK(refused([&](nlohmann::json& j) { j[list][i][key] = nlohmann::json::object(); }));
       }
     }

@@ -154,6 +154,6 @@ TEST_CASE("ids of every script are usable and unique") {
   // Labels that have one slug but mean different things are not numbered together.
   const auto named = name_parts({"стол", "ножка", "ножка"}, {{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}});
   CHECK(named[0].name == "стол");
-  CHECK(named[1].name == "left ножка");
-  CHECK(named[2].name == "right ножка");
+  CHECK(named[1].name == "ножка (left)");
+  CHECK(named[2].name == "ножка (right)");
 }

@@ -63,9 +63,16 @@ function emptyAnswer(path: string): string | null {
   return /^recordings\/[^/]+\.json$/.test(path) ? '{"requests":[],"replies":{},"models":[]}' : null;
 }
 
-/** Serves web/dist, or another built page, at /some/where/; answers with the page's address. */
-export async function serve(folder = dist): Promise<{ url: string; server: Server }> {
-  if (!existsSync(join(dist, 'index.html'))) throw new Error('web/dist is not built: run ./web/start.sh --build-only');
+/**
+ * Serves web/dist, or another built page, at /some/where/; answers with the page's address.
+ * @param headers sent with every file
+ */
+export async function serve(
+  folder = dist,
+  headers: Readonly<Record<string, string>> = {},
+): Promise<{ url: string; server: Server }> {
+  if (folder === dist && !existsSync(join(dist, 'index.html')))
+    throw new Error('web/dist is not built: run ./web/start.sh --build-only');
   const base = '/some/where/';
   const server = createServer(async (request, response) => {
     const path = decodeURIComponent(new URL(request.url ?? '/', 'http://localhost').pathname);
@@ -73,7 +80,8 @@ export async function serve(folder = dist): Promise<{ url: string; server: Serve
     if (!path.startsWith(base) || relative.startsWith('..')) return response.writeHead(404).end();
     try {
       const bytes = await readFile(join(folder, relative));
-      response.writeHead(200, { 'Content-Type': types[extname(relative)] ?? 'application/octet-stream' }).end(bytes);
+      const type = types[extname(relative)] ?? 'application/octet-stream';
+      response.writeHead(200, { ...headers, 'Content-Type': type }).end(bytes);
     } catch {
       const empty = emptyAnswer(relative);
       if (empty !== null) response.writeHead(200, { 'Content-Type': types['.json'] }).end(empty);

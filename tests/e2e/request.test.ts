@@ -130,12 +130,12 @@ describe('without a key', () => {
     await page.context().close();
   });
 
-  it('a request that is not recorded keeps its text, and shows those that are', async () => {
+  it('a request that nobody understands keeps its text, and shows those that are recorded', async () => {
     const { page, complaints } = await openChair();
     await field(page).fill('make it fly');
     await page.getByRole('button', { name: 'Send' }).click();
     const alert = composer(page).getByRole('alert');
-    await expect.poll(() => alert.textContent()).toMatch(/no recorded answer.*enter a key/);
+    await expect.poll(() => alert.textContent()).toMatch(/not understood.*enter a key/);
     expect(await field(page).inputValue()).toBe('make it fly');
     expect(await composer(page).getByRole('button', { name: 'widen the chair' }).count()).toBe(1);
     await alert.getByRole('button', { name: 'Settings' }).click();
@@ -175,6 +175,7 @@ function answering(
   });
 }
 
+/** What the language model shall read says more than what is read without one: “nicely” is for it alone. */
 async function say(page: Page, text: string) {
   await field(page).fill(text);
   await field(page).press('Enter');
@@ -191,11 +192,11 @@ describe.each(['openai', 'anthropic', 'gemini'] as const)('%s from the page', (p
     await done(page);
 
     answering([widenSeat]);
-    await field(page).fill('widen the stool');
+    await field(page).fill('widen the stool nicely');
     await page.getByText(/answers, about .* thousand tokens to send/).waitFor();
     await field(page).press('Enter');
     await composer(page).getByText('Understood:').waitFor();
-    expect(await layers(page)).toEqual(['widen the stool']);
+    expect(await layers(page)).toEqual(['widen the stool nicely']);
     expect(new Set(providers.calls.map(({ headers }) => JSON.stringify(headers).includes('sk-secret')))).toEqual(
       new Set([true]),
     );
@@ -206,8 +207,8 @@ describe.each(['openai', 'anthropic', 'gemini'] as const)('%s from the page', (p
     // The same again is not paid for again.
     const before = providers.calls.length;
     await page.getByRole('button', { name: /^Undo/ }).click();
-    await say(page, 'widen the stool');
-    await expect.poll(() => layers(page)).toEqual(['widen the stool']);
+    await say(page, 'widen the stool nicely');
+    await expect.poll(() => layers(page)).toEqual(['widen the stool nicely']);
     expect(providers.calls.length).toBe(before);
     expect(complaints).toEqual([]);
     await page.context().close();
@@ -247,7 +248,7 @@ describe('what was understood', () => {
     answering([widenSeat], (task) =>
       task === 'type_hints' ? { hints: { leg_front_left: 'translate' } } : { keep: false },
     );
-    await say(page, 'widen the seat');
+    await say(page, 'widen the seat nicely');
     await composer(page).getByText('Understood:').click();
     await composer(page).getByText('What other parts should do · 1').click();
     await composer(page).getByRole('button', { name: 'Forget front left leg' }).click();
@@ -260,7 +261,7 @@ describe('what was understood', () => {
     const boxes = composer(page).getByRole('checkbox');
     for (let i = 0; i < (await boxes.count()); i++) await boxes.nth(i).check();
     await expect.poll(disabled).toBe(0);
-    expect(await layers(page)).toEqual(['widen the seat']);
+    expect(await layers(page)).toEqual(['widen the seat nicely']);
     await page.context().close();
   });
 
@@ -313,13 +314,13 @@ describe('what was understood', () => {
     const { page } = await ready('openai');
     await done(page);
     answering([{ edits: [{ op: 'translate', part: 'no such part', direction: [0, 1, 0], amount: 'x' }] }]);
-    await say(page, 'raise it');
+    await say(page, 'raise it nicely');
     await composer(page)
       .getByText(/No answer could be used/)
       .waitFor();
     answering([raiseSeat]);
     await field(page).press('Enter');
-    await expect.poll(() => layers(page)).toEqual(['raise it']);
+    await expect.poll(() => layers(page)).toEqual(['raise it nicely']);
     await page.context().close();
   });
 });
@@ -342,9 +343,9 @@ describe('what goes wrong', () => {
     const { page } = await ready('openai');
     await done(page);
     providers.behave(() => behaviour);
-    await say(page, 'widen the stool');
+    await say(page, 'widen the stool nicely');
     await expect.poll(() => composer(page).getByRole('alert').textContent()).toMatch(sentence);
-    expect(await field(page).inputValue()).toBe('widen the stool');
+    expect(await field(page).inputValue()).toBe('widen the stool nicely');
     expect(await layers(page)).toEqual([]);
     await page.context().close();
   });
@@ -358,7 +359,7 @@ describe('what goes wrong', () => {
     await page.getByLabel('Base URL').press('Tab');
     await page.getByText(/may only talk to the listed providers/).waitFor();
     await done(page);
-    await say(page, 'widen');
+    await say(page, 'widen nicely');
     await expect
       .poll(() => composer(page).getByRole('alert').textContent())
       .toMatch(/not an address that this page may talk to/);
@@ -376,7 +377,7 @@ describe('what goes wrong', () => {
     const { page } = await ready('openai');
     await done(page);
     providers.behave(() => ({ kind: 'reply', text: reply(widenSeat), after: 60_000 }));
-    await field(page).fill('widen it');
+    await field(page).fill('widen it nicely');
     await page.locator('.part').filter({ hasText: 'seat' }).first().locator('.name').click();
     await page.getByRole('button', { name: 'Do not mention seat' }).waitFor();
     await field(page).press('Enter');
@@ -385,7 +386,7 @@ describe('what goes wrong', () => {
       .waitFor();
     await field(page).press('Escape');
     await expect.poll(() => composer(page).getByText('Reading the request').count()).toBe(0);
-    expect(await field(page).inputValue()).toBe('widen it');
+    expect(await field(page).inputValue()).toBe('widen it nicely');
     expect(await page.getByRole('button', { name: 'Do not mention seat' }).count()).toBe(1);
     await page.context().close();
   });
@@ -437,7 +438,7 @@ describe.each([
     await look('settings');
     await done(page);
     await look('empty');
-    await field(page).fill('widen the stool a little, but leave the legs where they are');
+    await field(page).fill('widen the stool nicely, but leave the legs where they are');
     await page.getByText(/thousand tokens to send/).waitFor();
     await look('typing');
     providers.behave(() => ({ kind: 'reply', text: reply(widenSeat), after: 60_000 }));
@@ -466,7 +467,7 @@ describe.each([
       .waitFor();
     await look('unclear');
     providers.behave(() => ({ kind: 'status', status: 401, body: {}, cors: false }));
-    await say(page, 'raise the back');
+    await say(page, 'raise the back nicely');
     await expect.poll(() => composer(page).getByRole('alert').textContent()).toMatch(/wrong key/);
     await look('error');
     expect(found).toEqual([]);

@@ -2,7 +2,7 @@
 import type { Program, Shape } from '../../web/src/program/types';
 import { type EditInput, noLabels, type OpenModel } from '../../web/src/session/document';
 import type { ModelCore } from '../../web/src/session/model_core';
-import type { Inference } from '../../web/src/worker/protocol';
+import type { Inference, PlainInference, Target } from '../../web/src/worker/protocol';
 import { twoBoxes } from './box_shapes';
 
 export function openModel(name: string, shape: Shape = twoBoxes): OpenModel {
@@ -55,6 +55,33 @@ export interface FakeCore extends ModelCore {
   /** What propagation does; by default it moves the part of the seed. */
   answer: (edit: EditInput, signal: AbortSignal) => Promise<Program>;
   inference: Inference;
+  /** What is read without a language model; by default it is not understood. */
+  plain: PlainInference;
+}
+
+/** What a request is read as without a language model: to move the parts, the first of them unless it is not sure. */
+export function readPlainly(parts: readonly string[], sure: boolean, target: Target | null = null): PlainInference {
+  const readings = parts.map((part) => ({
+    edit: { format: 'parsel/edit' as const, version: 1 as const, ...edit(part) },
+    words: `move ${part}`,
+    target,
+  }));
+  const [first] = readings;
+  return {
+    ...understood(parts[0] ?? 'left'),
+    seed: {
+      outcome: sure ? 'decided' : first ? 'split' : 'unclear',
+      readings: readings.map(({ words, edit: { seed } }) => ({
+        statements: seed as unknown as Inference['seed']['readings'][number]['statements'],
+        words,
+        votes: sure ? 1 : 0,
+      })),
+      of: 1,
+      reason: first ? null : 'it says nothing',
+    },
+    edit: first?.edit ?? null,
+    plain: { sure, language: 'en', unused: sure ? [] : ['nicer'], reason: sure ? null : 'it is not clear', readings },
+  };
 }
 
 export function fakeCore(): FakeCore {
@@ -63,6 +90,7 @@ export function fakeCore(): FakeCore {
     asked: [],
     answer: async (asked) => moving(partOf(asked)),
     inference: understood('left'),
+    plain: readPlainly([], false),
     open: () => Promise.reject(new Error('not here')),
     apply: () => Promise.reject(new Error('not here')),
     async propagate(_, asked, { signal }) {
@@ -75,6 +103,7 @@ export function fakeCore(): FakeCore {
       prompts: [{ task: 'seed_edit', relation: null, text: 'p', hash: 'h', version: '1' }],
       tasks: { seed_edit: { words: 'the edit', schema: {} } },
     }),
+    readPlainly: async () => core.plain,
     readReplies: async () => core.inference,
   };
   return core;

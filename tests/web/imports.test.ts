@@ -9,6 +9,9 @@ describe('an import', () => {
     ['llm/http.ts', "import { parseJson } from '../program/json';"],
     ['session/files.ts', "  const { unzip } = await import('fflate');"],
     ['main.tsx', "import { App } from './ui/App';"],
+    ['../runtime/src/program.ts', "import { checkProgram } from '../../src/program/check';"],
+    ['../runtime/src/three/index.ts', "import { ModelView } from '../../../src/scene/model_view';"],
+    ['../runtime/src/viewer/element.ts', "import { misfitOf } from '../three/fit';"],
   ])('that the room of %s may make passes: %s', (file, line) => {
     expect(importFaults(file, line)).toEqual([]);
   });
@@ -21,6 +24,19 @@ describe('an import', () => {
     ['session/files.ts', "import { render } from 'preact';", /without a single element/],
     ['ui/App.tsx', "import { get } from 'idb-keyval';", /done in their rooms/],
     ['ui/App.tsx', "  await import('fflate');", /done in their rooms/],
+    ['program/check.ts', "import { unwrap } from '../../runtime/src/error';", /program reads/],
+    ['../runtime/src/index.ts', "import * as three from 'three';", /without three\.js/],
+    ['../runtime/src/index.ts', "export { attachSliders } from './three/index';", /without three\.js/],
+    [
+      '../runtime/src/three/index.ts',
+      "import { loadModel } from '../../../src/scene/load';",
+      /neither a stage nor a loader/,
+    ],
+    [
+      '../runtime/src/viewer/read.ts',
+      "import { document } from '../../../src/session/session';",
+      /on the stage of the page/,
+    ],
     ['new/one.ts', '', /web\/src\/new: this folder has no row/],
   ])('that the room of %s may not make fails with its rule: %s', (file, line, rule) => {
     expect(importFaults(file, `\n${line}`)).toEqual([expect.stringMatching(rule)]);

@@ -1,7 +1,7 @@
 // Where on the slider a relation gives way, against places known by hand.
 import { describe, expect, it } from 'vitest';
 import { movedParts } from '../../web/src/program/edited';
-import type { Layer, Shape, Statement } from '../../web/src/program/types';
+import type { Layer, Shape, ShapeRelation, Statement, Vec3 } from '../../web/src/program/types';
 import { looseningOf } from '../../web/src/session/loosening';
 import { box, oneBox, twoBoxes } from './box_shapes';
 
@@ -11,11 +11,11 @@ const layer = (statements: readonly Statement[], min = -0.3, max = 0.3): Layer =
   statements,
   relations: [],
 });
-const move = (part: string, amount: string): Statement => ({
+const move = (part: string, amount: string, direction: Vec3 = [0, 1, 0]): Statement => ({
   op: 'translate',
   part,
   feature: [0, 0, 0],
-  direction: [0, 1, 0],
+  direction,
   amount,
 });
 const [joint] = twoBoxes.relations;
@@ -117,5 +117,28 @@ describe('a relation that an edit does not keep', () => {
 
   it('is not spoken of when it never comes apart', () => {
     expect(looseningOf(twoBoxes, layer([move('left', 'x1'), move('right', 'x1')]), joint)).toBeNull();
+  });
+});
+
+describe('what stands on the floor', () => {
+  const stands: ShapeRelation = {
+    id: 'g1',
+    kind: 'ground',
+    parts: ['left'],
+    points: [[0.25, -0.25, 0]],
+    local: [[0, -1, 0]],
+  };
+  const standing: Shape = { ...twoBoxes, relations: [...twoBoxes.relations, stands] };
+
+  it('leaves it at the tolerance of one edited part, although its only part is edited', () => {
+    const found = looseningOf(standing, layer([move('left', 'x1')]), stands);
+    for (const at of [-(found?.below ?? 0), found?.above]) {
+      expect(at).toBeGreaterThan(0.0144);
+      expect(at).toBeLessThan(0.0144 + 0.3 / 96 + 1e-9);
+    }
+  });
+
+  it('may slide along it', () => {
+    expect(looseningOf(standing, layer([move('left', 'x1', [1, 0, 0])]), stands)).toBeNull();
   });
 });

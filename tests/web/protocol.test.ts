@@ -36,6 +36,18 @@ describe('the boundary between the page and the core', () => {
     v.parse(methodSchemas[method as Method].result, result);
   });
 
+  it('reads a plain request as its type says', () => {
+    const { message, buffers } = invoke('gallery', {});
+    const { models } = v.parse(v.object({ result: methodSchemas.gallery.result }), message).result;
+    const chair = models.findIndex(({ id }) => id === 'chair');
+    invoke('open', { name: 'chair', external: [] }, buffers.slice(chair, chair + 1));
+    for (const request of ['make the legs 10 cm longer', 'make it 10 wider', 'make it nicer']) {
+      const read = invoke('read_plainly', { request, mentioned: [] }).message;
+      const { result } = v.parse(v.strictObject({ result: methodSchemas.read_plainly.result }), read);
+      expect([request, result.plain.sure]).toEqual([request, request.startsWith('make the legs')]);
+    }
+  });
+
   it('opens a gallery model, propagates its edits and applies the programs', () => {
     const { message, buffers } = invoke('gallery', {});
     const { models } = (message as { result: { models: { id: string; requests: { edit: unknown }[] }[] } }).result;

@@ -7,7 +7,7 @@ import { emptyDocument } from '../../web/src/session/document';
 import type { ModelCore } from '../../web/src/session/model_core';
 import { createRequests, type RequestParts } from '../../web/src/session/request';
 import { createSession } from '../../web/src/session/session';
-import { edit, fakeCore, moving, openModel, understood } from './fake_core';
+import { edit, fakeCore, moving, openModel, readPlainly, understood } from './fake_core';
 
 const source: Source = {
   votes: () => 1,
@@ -21,17 +21,19 @@ function ready(change: Partial<RequestParts> = {}) {
   session.replaceDocument({ ...emptyDocument, model: openModel('boxes') }, 'open boxes');
   const core = fakeCore();
   const play = vi.fn();
+  const aim = vi.fn();
   const requests = createRequests({
     session,
     models: signal<ModelCore | null>(core),
     questionOf: async (_, request, mentioned) => ({ request, mentioned, source }),
     votes: () => 3,
     play,
+    aim,
     ...change,
   });
   requests.requestText.value = 'lift it';
   const moved = () => session.document.value.layers.map(({ layer }) => (layer.statements[0] as { part: string }).part);
-  return { session, core, play, requests, moved };
+  return { session, core, play, aim, requests, moved };
 }
 const settled = (made: ReturnType<typeof ready>) => vi.waitFor(() => expect(made.session.task.value).toBe(null));
 
@@ -108,6 +110,95 @@ describe('a request', () => {
     expect(requests.request.value).toEqual({ kind: 'idle' });
     expect(requests.mentioned.value).toEqual(['left']);
     stop();
+  });
+});
+
+describe('a plain request', () => {
+  const noRecording = () => Promise.reject(new AskError('no_recording', '', 'There is none', 'Enter a key'));
+  const keyless: Partial<RequestParts> = { questionOf: noRecording, votes: () => null };
+
+  it('is read without a language model where there is no key and nothing recorded', async () => {
+    const made = ready(keyless);
+    made.core.plain = readPlainly(['right'], true);
+    await made.requests.sendRequest();
+    expect(made.moved()).toEqual(['right']);
+    expect(made.requests.request.value).toMatchObject({ kind: 'understood', plain: { sure: true }, reading: 0 });
+    expect(made.play).toHaveBeenCalledOnce();
+    expect(made.requests.requestText.value).toBe('');
+  });
+
+  it('does not come before a recorded answer', async () => {
+    const made = ready({ votes: () => null });
+    made.core.plain = readPlainly(['right'], true);
+    await made.requests.sendRequest();
+    expect(made.moved()).toEqual(['left']);
+    expect(made.requests.request.value).toMatchObject({ plain: null });
+  });
+
+  it('that is not sure waits for one of its readings, which brings its own hints', async () => {
+    const made = ready(keyless);
+    made.core.plain = readPlainly(['left', 'right'], false);
+    const [, second] = made.core.plain.plain.readings;
+    if (second) Object.assign(second.edit, { hints: { left: 'keep_fixed' } });
+    await made.requests.sendRequest();
+    expect(made.moved()).toEqual([]);
+    made.requests.chooseReading(1);
+    expect(made.requests.request.value).toMatchObject({ edit: { hints: { left: 'keep_fixed' } } });
+    await made.requests.applyRequest();
+    expect(made.moved()).toEqual(['right']);
+  });
+
+  it('that is not understood says why, and what else can be done', async () => {
+    const { requests, moved } = ready(keyless);
+    await requests.sendRequest();
+    expect(moved()).toEqual([]);
+    expect(requests.request.value).toMatchObject({ kind: 'failed', isSetting: true });
+    expect((requests.request.value as { text: string }).text).toMatch(/it is not clear; “nicer” is not understood\./);
+    expect(requests.requestText.value).toBe('lift it');
+  });
+
+  it('with a key costs nothing when it is sure', async () => {
+    const questionOf = vi.fn(noRecording);
+    const made = ready({ questionOf });
+    made.core.plain = readPlainly(['right'], true);
+    expect(await made.requests.estimateRequest()).toBe(null);
+    await made.requests.sendRequest();
+    expect(made.moved()).toEqual(['right']);
+    expect(questionOf).not.toHaveBeenCalled();
+  });
+
+  it('with a key is asked of the language model when it is not sure', async () => {
+    const made = ready();
+    made.core.plain = readPlainly(['right', 'left'], false);
+    await made.requests.sendRequest();
+    expect(made.moved()).toEqual(['left']);
+    expect(made.requests.request.value).toMatchObject({ plain: null });
+  });
+
+  it('can be asked of a language model instead, in the same layer', async () => {
+    const made = ready();
+    made.core.plain = readPlainly(['right'], true);
+    await made.requests.sendRequest();
+    const state = made.requests.request.value;
+    if (state.kind === 'understood') await made.requests.askAgain(state);
+    expect(made.moved()).toEqual(['left']);
+    expect(made.requests.request.value).toMatchObject({ plain: null });
+    made.session.undo();
+    expect(made.moved()).toEqual([]);
+  });
+
+  it('puts the slider where it says, until the edit is corrected', async () => {
+    const target = { part: 'left', what: 'distance', by: 0.1, x: 0.2 } as const;
+    const made = ready(keyless);
+    made.core.plain = readPlainly(['left'], true, target);
+    await made.requests.sendRequest();
+    expect(made.aim).toHaveBeenCalledExactlyOnceWith(made.session.document.value.layers[0]?.key, target);
+    expect(made.play).not.toHaveBeenCalled();
+    made.requests.correctEdit(edit('right'));
+    await settled(made);
+    expect(made.moved()).toEqual(['right']);
+    expect(made.aim).toHaveBeenCalledOnce();
+    expect(made.play).toHaveBeenCalledOnce();
   });
 });
 

@@ -2,13 +2,14 @@
 // well-formed, to fit a shape, and to be real and finite over the whole range of its parameters.
 //
 // The input is never changed; what comes out is a copy, and there is none unless everything has been accepted.
-import * as v from 'valibot';
-import { cut, shortened } from './cut';
 import { type DomainBudget, findDomainFault, maxMagnitude, parametersOf, type Range } from './domain';
+import { type Format, pointer, quote, readFormat } from './gate';
 import { type Expression, parseAmount } from './parse';
 import { partIndex } from './part_index';
 import { limits, programSchema } from './schema';
 import {
+  type CageRelation,
+  type CageShape,
   type DirectionReference,
   isGeometric,
   isGroup,
@@ -17,8 +18,6 @@ import {
   type Program,
   type ProgramError,
   type Result,
-  type Shape,
-  type ShapeRelation,
   type Statement,
 } from './types';
 
@@ -35,8 +34,12 @@ export interface CheckedProgram {
 /** Operations on intervals that all amounts of a program may take together: judging_budget in core/amount/amount_range.h. */
 const domainBudget = 2_000_000;
 
-/** No list of a program is longer; which is which is seen by the schema. */
-const longestList = Math.max(limits.statements, limits.reports);
+const format: Format = { stage: 'program/check', what: 'program', name: 'parsel/program' };
+
+/** The structure of untrusted JSON alone: what its names mean is left to checkProgram(). */
+export function readProgram(json: unknown): Result<Program> {
+  return readFormat(json, programSchema, format);
+}
 
 /**
  * Checks untrusted JSON against the format and a shape. Refused are: unknown formats, versions, keys, operators, parts
@@ -44,94 +47,9 @@ const longestList = Math.max(limits.statements, limits.reports);
  * unknown parameters, or are complex, infinite, undefined or huge somewhere over the parameters' ranges; operators on an
  * instance of a group whose count the program changes. The place of an error is a JSON pointer.
  */
-export function checkProgram(json: unknown, shape: Shape): Result<CheckedProgram> {
-  const tooMuch = findExcess(json);
-  if (tooMuch) return { ok: false, error: tooMuch };
-  const parsed = v.safeParse(programSchema, json, { abortEarly: true });
-  if (!parsed.success) return { ok: false, error: fromIssue(parsed.issues[0]) };
-  return new Checker(parsed.output, shape).run();
-}
-
-function refusal(place: string, cause: string, fix: string): ProgramError {
-  return { stage: 'program/check', place, cause, fix };
-}
-
-/** RFC 6901. */
-function pointer(...path: readonly (string | number)[]): string {
-  return path.map((key) => `/${cut(String(key), 80).replaceAll('~', '~0').replaceAll('/', '~1')}`).join('');
-}
-
-/** Quotes a name from the input for a message, at a length that fits one. */
-function quote(text: string): string {
-  return JSON.stringify(shortened(text, 60));
-}
-
-/** What no schema should be asked to walk: too many values, too deep, not JSON, or keys that reach into prototypes. */
-function findExcess(json: unknown): ProgramError | null {
-  let values = 0;
-  const walk = (value: unknown, path: readonly (string | number)[]): ProgramError | null => {
-    if (++values > limits.jsonValues) {
-      return refusal('', `the program has more than ${limits.jsonValues} values`, 'split it or remove statements');
-    }
-    if (typeof value !== 'object' || value === null) return null;
-    if (path.length >= limits.jsonDepth) {
-      return refusal(pointer(...path), `nested deeper than ${limits.jsonDepth} levels`, 'flatten it');
-    }
-    if (Array.isArray(value)) {
-      if (value.length > longestList) {
-        return refusal(
-          pointer(...path),
-          `a list of ${value.length} items`,
-          `use at most ${limits.statements} statements and ${limits.reports} reports`,
-        );
-      }
-      return firstFault(value.entries(), path);
-    }
-    const prototype: unknown = Object.getPrototypeOf(value);
-    if (prototype !== Object.prototype && prototype !== null) {
-      return refusal(pointer(...path), 'not a plain JSON object', 'give the result of JSON.parse');
-    }
-    return firstFault(Object.entries(value), path);
-  };
-  const firstFault = (
-    entries: Iterable<[string | number, unknown]>,
-    path: readonly (string | number)[],
-  ): ProgramError | null => {
-    for (const [key, item] of entries) {
-      if (typeof key === 'string' && key in Object.prototype) {
-        return refusal(pointer(...path, key), `the key ${quote(key)} is not allowed`, 'remove it');
-      }
-      const fault = walk(item, [...path, key]);
-      if (fault) return fault;
-    }
-    return null;
-  };
-  return walk(json, []);
-}
-
-/** The first thing that the schema found, in words. */
-function fromIssue(issue: v.BaseIssue<unknown>): ProgramError {
-  const path = (issue.path ?? []).map((item) => item.key as string | number);
-  const place = pointer(...path);
-  const key = quote(String(path.at(-1) ?? ''));
-  const last = issue.path?.at(-1);
-  if (issue.expected === 'never') return refusal(place, `the key or item ${key} is unknown here`, 'remove it');
-  if (last?.origin === 'key') return refusal(pointer(...path.slice(0, -1)), `the key ${key} is missing`, 'add it');
-  const top = path.join('/');
-  if (top === 'format') return refusal(place, 'not a ParSEL program', 'give a file of format "parsel/program"');
-  if (top === 'version') {
-    return refusal(place, `version ${clip(issue.received)} is unknown`, 'use version 1, or a newer ParSEL');
-  }
-  if (issue.kind === 'validation') return refusal(place, clip(issue.message, 200), 'change it accordingly');
-  return refusal(
-    place,
-    `${clip(issue.received)} is not accepted`,
-    `write ${clip(issue.expected ?? 'something else', 200)}`,
-  );
-}
-
-function clip(text: string, length = 80): string {
-  return shortened(text, length);
+export function checkProgram(json: unknown, shape: CageShape): Result<CheckedProgram> {
+  const read = readProgram(json);
+  return read.ok ? new Checker(read.value, shape).run() : read;
 }
 
 /** Stops at the first fault; never leaves this file. */
@@ -143,7 +61,7 @@ class Fault extends Error {
 
 class Checker {
   private readonly parts: ReadonlyMap<string, number>;
-  private readonly relations: ReadonlyMap<string, ShapeRelation>;
+  private readonly relations: ReadonlyMap<string, CageRelation>;
   /** The group that a part, by its index, is an instance of. */
   private readonly groupOf: ReadonlyMap<number | undefined, string>;
   private readonly ranges = new Map<string, Range>();
@@ -153,7 +71,7 @@ class Checker {
 
   constructor(
     private readonly program: Program,
-    shape: Shape,
+    shape: CageShape,
   ) {
     this.parts = partIndex(shape);
     this.relations = new Map(shape.relations.map((relation) => [relation.id, relation]));
@@ -188,7 +106,7 @@ class Checker {
   }
 
   private refuse(place: string, cause: string, fix: string): never {
-    throw new Fault(refusal(place, cause, fix));
+    throw new Fault({ stage: format.stage, place, cause, fix });
   }
 
   private parameter(parameter: Program['layers'][number]['parameter'], place: string): void {
@@ -252,7 +170,7 @@ class Checker {
     if (!this.parts.has(id)) this.refuse(place, `the part ${quote(id)} is unknown`, 'name a part of this shape');
   }
 
-  private relation(id: string, place: string): ShapeRelation {
+  private relation(id: string, place: string): CageRelation {
     const relation = this.relations.get(id);
     if (!relation) this.refuse(place, `the relation ${quote(id)} is unknown`, 'name a relation of this shape');
     return relation;

@@ -22,6 +22,7 @@ import { parametersOf } from './domain';
 import type { Expression } from './parse';
 import { partIndex } from './part_index';
 import {
+  type CageShape,
   type DirectionReference,
   type GeometricStatement,
   type GroupStatement,
@@ -30,7 +31,6 @@ import {
   type LocalTriple,
   type Parameter,
   type PointReference,
-  type Shape,
   type Statement,
 } from './types';
 
@@ -50,7 +50,7 @@ export interface Evaluator {
 }
 
 /** Compiles a program for the shape that it was checked against. */
-export function compileProgram({ program, amounts }: CheckedProgram, shape: Shape): Evaluator {
+export function compileProgram({ program, amounts }: CheckedProgram, shape: CageShape): Evaluator {
   const parameters = program.layers.map((layer) => layer.parameter);
   const names = parameters.map((parameter) => parameter.name);
   return new Compiler(shape, compileAmounts(amounts, names), parameters, program.layers).evaluator;
@@ -86,7 +86,7 @@ class Compiler {
   private used = 0;
 
   constructor(
-    shape: Shape,
+    shape: CageShape,
     private readonly amounts: CompiledAmounts,
     parameters: readonly Parameter[],
     layers: readonly { readonly statements: readonly Statement[] }[],

@@ -1,8 +1,8 @@
 // How programs name parts.
-import type { Shape } from './types';
+import type { CageShape } from './types';
 
 /** Indices of a shape's parts by id and by "node:<glTF node index>" (the first part of that node). */
-export function partIndex(shape: Shape): ReadonlyMap<string, number> {
+export function partIndex(shape: Pick<CageShape, 'parts'>): ReadonlyMap<string, number> {
   const found = new Map<string, number>();
   for (const [i, part] of shape.parts.entries()) {
     const node = `node:${part.node}`;

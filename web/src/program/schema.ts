@@ -48,7 +48,7 @@ const text = v.pipe(
 const name = v.pipe(text, v.minLength(1), v.maxBytes(limits.nameLength));
 const finite = v.pipe(v.number(), v.finite());
 const coordinate = v.pipe(finite, v.minValue(-limits.coordinate), v.maxValue(limits.coordinate));
-const vector: v.GenericSchema<unknown, Vec3> = v.strictTuple([coordinate, coordinate, coordinate]);
+export const vector: v.GenericSchema<unknown, Vec3> = v.strictTuple([coordinate, coordinate, coordinate]);
 const sign: v.GenericSchema<unknown, Sign> = v.picklist([-1, 0, 1]);
 const triple: v.GenericSchema<unknown, LocalTriple> = v.strictTuple([sign, sign, sign]);
 

@@ -63,6 +63,8 @@ export interface ReflectionRelation extends RelationBase {
   readonly normal: Vec3;
   /** Corner k of the second part is the mirror image of corner corner_map[k] of the first. */
   readonly corner_map: readonly number[];
+  /** One above the other: a change of height need not mirror. */
+  readonly stacked?: true;
 }
 /** Instances at equal distances; start and end are the centres of the first and the last. */
 export interface TranslationRelation extends RelationBase {
@@ -73,6 +75,8 @@ export interface TranslationRelation extends RelationBase {
   /** Local axis of the parent that the instances follow, and whether they run along + or - of it. */
   readonly axis: Axis;
   readonly direction: -1 | 1;
+  /** Each instance touches the next. */
+  readonly touching?: true;
 }
 /** A closed ring of instances: number k is number 0 turned by k · 2π/count. */
 export interface RotationRelation extends RelationBase {
@@ -89,9 +93,25 @@ export interface AttachmentRelation extends RelationBase {
   /** The same points in local coordinates of the first and of the second part. */
   readonly local_a: readonly Vec3[];
   readonly local_b: readonly Vec3[];
+  /** Where the parts touch: a rectangle by its centre, its normal out of the first part, and half its sides. */
+  readonly patch?: {
+    readonly centre: Vec3;
+    readonly normal: Vec3;
+    readonly half_sides: readonly [Vec3, Vec3];
+    /** Its corners in local coordinates of each part. */
+    readonly local_a: readonly Vec3[];
+    readonly local_b: readonly Vec3[];
+  };
+}
+/** Its one part stands on the floor: these points keep their height. */
+export interface GroundRelation extends RelationBase {
+  readonly kind: 'ground';
+  readonly points: readonly Vec3[];
+  /** The same points in local coordinates of the part. */
+  readonly local: readonly Vec3[];
 }
 export type GroupRelation = TranslationRelation | RotationRelation;
-export type ShapeRelation = ReflectionRelation | GroupRelation | AttachmentRelation;
+export type ShapeRelation = ReflectionRelation | GroupRelation | AttachmentRelation | GroundRelation;
 
 export interface Shape {
   readonly format: 'parsel/shape';
@@ -99,14 +119,35 @@ export interface Shape {
   readonly name: string;
   /** Of the model file's bytes, lower-case hex. */
   readonly sha256: string;
-  readonly frame: { readonly centre: Vec3; readonly scale: number };
+  /** `axes`: the normalised axes as rows in the file's coordinates, where the model does not stand along the file's. */
+  readonly frame: { readonly centre: Vec3; readonly scale: number; readonly axes?: readonly [Vec3, Vec3, Vec3] };
   readonly parts: readonly ShapePart[];
   readonly relations: readonly ShapeRelation[];
   readonly warnings: readonly { readonly place: string; readonly text: string }[];
 }
 
-export function isGroup(relation: ShapeRelation): relation is GroupRelation {
-  return relation.kind === 'translation' || relation.kind === 'rotation';
+/** A part as evaluation and drawing see it: its hexahedron, and the mesh that rides in it. */
+export type CagePart = Pick<ShapePart, 'id' | 'node' | 'primitive' | 'corners' | 'virtual'>;
+/** A relation of which no more is known than what it is about. */
+export interface NamedRelation extends RelationBase {
+  readonly kind: string;
+}
+export type CageRelation = ShapeRelation | NamedRelation;
+
+/** What evaluating a program and drawing the result need of a shape, and what travels with a program (sliders.ts). */
+export interface CageShape extends Pick<Shape, 'name' | 'sha256' | 'frame'> {
+  readonly parts: readonly CagePart[];
+  readonly relations: readonly CageRelation[];
+}
+
+export function isGroup(relation: CageRelation): relation is GroupRelation {
+  return 'parent' in relation && (relation.kind === 'translation' || relation.kind === 'rotation');
+}
+export function isReflection(relation: CageRelation): relation is ReflectionRelation {
+  return 'normal' in relation && relation.kind === 'reflection';
+}
+export function isAttachment(relation: CageRelation): relation is AttachmentRelation {
+  return 'points' in relation;
 }
 
 // -------------------------------------------------------------------------------------------------- parsel/program

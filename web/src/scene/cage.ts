@@ -6,7 +6,7 @@
 // Σₖ Nₖ(u,v,w)·Hₖ with Nₖ = Π(1 ± ·)/2. On a box these trilinear weights are the harmonic coordinates of Joshi et al.
 // 2007: each is multilinear, hence harmonic, and has the right values on the boundary.
 import * as three from 'three';
-import type { Corners, Shape, Vec3 } from '../program/types';
+import { type CageShape, type Corners, isGroup, type Vec3 } from '../program/types';
 import type { State } from './explode';
 
 export const texelsPerRow = 9;
@@ -28,12 +28,12 @@ export class CageTexture {
   readonly #groups: GroupRows[] = [];
   readonly #partCount: number;
 
-  constructor(shape: Shape) {
+  constructor(shape: CageShape) {
     this.#partCount = shape.parts.length;
     let rows = this.#partCount;
-    for (const [relation, { kind, parts }] of shape.relations.entries()) {
-      if (kind !== 'translation' && kind !== 'rotation') continue;
-      const capacity = 2 * parts.length;
+    for (const [relation, group] of shape.relations.entries()) {
+      if (!isGroup(group)) continue;
+      const capacity = 2 * group.parts.length;
       this.#groups.push({ relation, first: rows, capacity });
       rows += capacity;
     }
@@ -73,6 +73,11 @@ export class CageTexture {
     }
     this.uniform.value.needsUpdate = true;
     return moved;
+  }
+
+  /** The corners of a row as they were written, at the texture's precision, to out[0 … 23]. */
+  readRow(row: number, out: Float64Array): void {
+    for (let i = 0; i < 24; i++) out[i] = this.#data[row * floatsPerRow + 4 * Math.floor(i / 3) + (i % 3)] as number;
   }
 
   /** @param strength 0 leaves the material's own colour, 1 replaces it. Display colour, 0 … 1. */

@@ -1,6 +1,6 @@
 // The exploded view: every part moved away from the middle of the shape, as it is drawn and picked, not as it is edited.
 import type { Evaluator, GroupView } from '../program/compile';
-import type { Shape } from '../program/types';
+import type { CageShape } from '../program/types';
 
 const reach = 0.6;
 
@@ -11,7 +11,7 @@ export type State = Pick<Evaluator, 'corners' | 'groups'>;
  * A state whose parts and instances stand farther from the middle of the shape than they do.
  * @param amount 0 … 1: as they are … 1 + reach times as far
  */
-export function explode(shape: Shape, { corners, groups }: State, amount: number): State {
+export function explode(shape: CageShape, { corners, groups }: State, amount: number): State {
   const middle = [0, 0, 0];
   const real = shape.parts.filter(({ virtual }) => !virtual).length;
   for (const [part, { virtual }] of shape.parts.entries()) {

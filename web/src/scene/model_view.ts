@@ -1,11 +1,11 @@
 // A model in the scene: every part is one instanced draw of its own mesh, whose vertices follow the cage. When the count
 // of a group changes, one member's mesh is drawn once an instance and the other members rest.
 import * as three from 'three';
-import { isGroup, type Shape } from '../program/types';
+import { type CageShape, isGroup } from '../program/types';
 import { CageTexture, localFrame } from './cage';
 import { depthMaterial, followCage } from './cage_material';
 import type { State } from './explode';
-import type { LoadedMesh, LoadedModel } from './load';
+import type { LoadedMesh, LoadedModel } from './meshes';
 
 /** Display colour, 0 … 1, and how much of it. */
 export type Tint = readonly [red: number, green: number, blue: number, strength: number];
@@ -36,7 +36,7 @@ export class ModelView {
   readonly #hidden: boolean[];
 
   constructor(
-    readonly shape: Shape,
+    readonly shape: CageShape,
     readonly loaded: LoadedModel,
   ) {
     this.cage = new CageTexture(shape);
@@ -48,6 +48,7 @@ export class ModelView {
     const patched = new Set<three.Material>();
     const toShape = new three.Matrix4()
       .makeScale(1 / shape.frame.scale, 1 / shape.frame.scale, 1 / shape.frame.scale)
+      .multiply(turnedOnto(shape.frame.axes))
       .multiply(new three.Matrix4().makeTranslation(new three.Vector3(...shape.frame.centre).negate()));
 
     for (const loadedMesh of loaded.meshes) {
@@ -169,6 +170,14 @@ export class ModelView {
       this.cage.setTint(this.cage.rowOfInstance(group.relation, i), ...(this.#tints[member] ?? noTint));
     }
   }
+}
+
+/** From the file's axes to the model's own. */
+function turnedOnto(axes: Shape['frame']['axes']): three.Matrix4 {
+  const turn = new three.Matrix4();
+  if (axes === undefined) return turn;
+  const [x, y, z] = axes;
+  return turn.set(...x, 0, ...y, 0, ...z, 0, 0, 0, 0, 1);
 }
 
 /**

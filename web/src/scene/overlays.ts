@@ -1,7 +1,7 @@
 // What is drawn over the model while something is selected: the hexahedron with its chosen feature, the points of
 // attachments, planes and axes of symmetries. A few fixed buffers, rewritten when the state changes.
 import * as three from 'three';
-import { isGroup, type LocalTriple, type Shape, type Vec3 } from '../program/types';
+import { type CageShape, isAttachment, isReflection, type LocalTriple, type Vec3 } from '../program/types';
 import { localFrame, trilinear } from './cage';
 
 const maxPoints = 256;
@@ -34,10 +34,10 @@ export class Overlays {
   readonly #planes: three.Mesh[] = [];
   readonly #planeMaterial: three.MeshBasicMaterial;
   #highlight: Highlight = { part: -1, feature: [0, 0, 0], relations: [] };
-  /** Of each attachment: its points in local coordinates of its first part. */
+  /** Of each attachment, and of what stands on the floor: its points in local coordinates of its first part. */
   readonly #attachments = new Map<number, { part: number; local: Vec3[] }>();
 
-  constructor(private readonly shape: Shape) {
+  constructor(private readonly shape: CageShape) {
     const lines = new three.LineBasicMaterial({ depthTest: false, transparent: true, opacity: 0.9 });
     this.#box = new three.LineSegments(buffer(24), lines);
     this.#feature = new three.Mesh(
@@ -64,7 +64,7 @@ export class Overlays {
     }
     const index = new Map(shape.parts.map((part, i) => [part.id, i]));
     for (const [i, relation] of shape.relations.entries()) {
-      if (relation.kind === 'reflection' || isGroup(relation)) continue;
+      if (!isAttachment(relation)) continue;
       const part = index.get(relation.parts[0] ?? '') ?? 0;
       const { centre, inverse } = localFrame(shape.parts[part]?.corners ?? []);
       const local = relation.points.map((point) => {
@@ -88,7 +88,7 @@ export class Overlays {
     let planes = 0;
     for (const i of highlight.relations) {
       const relation = this.shape.relations[i];
-      if (relation?.kind === 'reflection') this.#placePlane(planes++, relation.origin, relation.normal);
+      if (relation && isReflection(relation)) this.#placePlane(planes++, relation.origin, relation.normal);
     }
     this.update(corners);
   }

@@ -1,11 +1,11 @@
 // The scene around the model: light, ground, camera, overlays; drawn when something has changed, and only then.
 import * as three from 'three';
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js';
-import type { Shape, Vec3 } from '../program/types';
+import type { CageShape, Vec3 } from '../program/types';
 import { CameraRig, type Insets } from './camera';
 import { distanceAlong } from './drag';
 import { explode, type State } from './explode';
-import type { LoadedModel } from './load';
+import type { LoadedModel } from './meshes';
 import { ModelView } from './model_view';
 import { Overlays } from './overlays';
 import { type Hit, Picker } from './picking';
@@ -84,7 +84,7 @@ export class Stage {
   }
 
   /** Puts a model on the stage in place of the last one, which is disposed of. */
-  show(loaded: LoadedModel, shape: Shape): Actor {
+  show(loaded: LoadedModel, shape: CageShape): Actor {
     this.clear();
     const actor = { view: new ModelView(shape, loaded), overlays: new Overlays(shape) };
     actor.overlays.setColours({ accent: this.#accent, quiet: this.#quiet });
@@ -283,7 +283,7 @@ const shapeBox = new three.Box3();
 const nothing = new Float64Array(0);
 
 /** Of all real parts and all instances. The box is reused by the next call. */
-export function shapeBounds(shape: Shape, { corners, groups }: State): three.Box3 {
+export function shapeBounds(shape: CageShape, { corners, groups }: State): three.Box3 {
   shapeBox.makeEmpty();
   for (let part = 0; part < shape.parts.length; part++) {
     if (!shape.parts[part]?.virtual) expand(shapeBox, corners, part);

@@ -6,11 +6,14 @@ export function plainName(name: string): string {
   return name.replace(/[^\p{L}\p{M}\p{N} _.-]/gu, '').trim() || 'model';
 }
 
-const edited = /^(.+)-edited(?:-(\d{1,6}))?$/u;
+const numbered = /^(.+)-([a-z]+)(?:-(\d{1,6}))?$/u;
 
-/** "chair" → "chair-edited" → "chair-edited-2" → …: what came out of this page once may be opened and edited again. */
-export function editedName(name: string): string {
+/**
+ * "chair" → "chair-edited" → "chair-edited-2" → …: what came out of this page once may be opened and edited again.
+ * @param word what has become of the model
+ */
+export function editedName(name: string, word: 'edited' | 'sliders' = 'edited'): string {
   const plain = plainName(name);
-  const before = edited.exec(plain);
-  return before === null ? `${plain}-edited` : `${before[1]}-edited-${Number(before[2] ?? 1) + 1}`;
+  const before = numbered.exec(plain);
+  return before?.[2] === word ? `${before[1]}-${word}-${Number(before[3] ?? 1) + 1}` : `${plain}-${word}`;
 }

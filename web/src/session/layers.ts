@@ -1,6 +1,7 @@
 // The edits: adding, changing and arranging layers, each as one step of the history.
 import { batch } from '@preact/signals';
 import { checkProgram } from '../program/check';
+import { titleOf } from '../program/title';
 import { errorMessage, type Layer, type Program } from '../program/types';
 import { type Document, type LayerEntry, programOf, withFreshParameters } from './document';
 import { activeLayers, type Evaluation } from './evaluation';
@@ -8,6 +9,8 @@ import type { History, Mark } from './history';
 import type { Propagation } from './model_core';
 import type { Tasks } from './tasks';
 import type { Trace } from './trace';
+
+export { titleOf } from '../program/title';
 
 export interface Layers {
   /** Keeps where a slider has been moved to, as one step of the history. */
@@ -33,11 +36,6 @@ export interface Layers {
   renameLayer(key: number, request: string): void;
   /** @param by −1 up, 1 down */
   moveLayer(key: number, by: -1 | 1): void;
-}
-
-/** With a capital, however it was typed. */
-export function titleOf({ request }: Layer): string {
-  return request === '' ? 'Edit' : request.charAt(0).toUpperCase() + request.slice(1);
 }
 
 type Entries = readonly LayerEntry[];

@@ -38,7 +38,8 @@ function search(shape: Shape, layer: Layer, relation: ShapeRelation): Loosening 
   const evaluator = compileProgram(checked.value, shape);
   const off = deviation(shape, relation);
   const moved = movedParts(shape, layer.statements);
-  const slack = relation.parts.every((id) => moved.has(id)) ? slackBothEdited : slackOneEdited;
+  const bothEdited = relation.kind !== 'ground' && relation.parts.every((id) => moved.has(id));
+  const slack = bothEdited ? slackBothEdited : slackOneEdited;
   const groups = groupsOfInstances(shape, relation);
   const { min, max } = layer.parameter;
   const reading = (value: number) => readAt(shape, measure, evaluator, [0], 0, [value])[0] ?? 0;
@@ -66,6 +67,8 @@ function groupsOfInstances(shape: Shape, { parts }: ShapeRelation): readonly (re
 function deviation(shape: Shape, relation: Exclude<ShapeRelation, { kind: 'translation' | 'rotation' }>) {
   const [a = 0, b = 0] = relation.parts.map((id) => shape.parts.findIndex((part) => part.id === id));
   const differences = (corners: ArrayLike<number>): number[] => {
+    // The height alone.
+    if (relation.kind === 'ground') return relation.local.map((local) => pointIn(corners, a, local)[1] ?? 0);
     if (relation.kind !== 'reflection') {
       return relation.local_a.flatMap((local, i) => {
         const to = pointIn(corners, b, relation.local_b[i] ?? local);

@@ -3,7 +3,7 @@
 import type { Program, Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
 import type { CallOptions, CoreClient, CoreState } from '../worker/client';
-import type { Inference, MethodResult, Replies } from '../worker/protocol';
+import type { Inference, MethodResult, PlainInference, Replies } from '../worker/protocol';
 import { type EditInput, type Labels, noLabels, type OpenModel } from './document';
 import type { Trace } from './trace';
 
@@ -35,6 +35,8 @@ export interface ModelCore {
   propagate(model: OpenModel, edit: EditInput, options: Options): Promise<Propagation>;
   /** The model's file with the program applied. */
   apply(model: OpenModel, program: Program, options: ExportOptions): Promise<Exported>;
+  /** What a request means, read without a language model. `mentioned` as below. */
+  readPlainly(model: OpenModel, request: string, mentioned: readonly string[]): Promise<PlainInference>;
   /** What a language model is to be asked. `mentioned`: ids of parts that were pointed at. */
   prompts(model: OpenModel, request: string, mentioned: readonly string[]): Promise<MethodResult<'prompts'>>;
   /** What its replies mean. */
@@ -67,6 +69,10 @@ export function modelCore(client: CoreClient): ModelCore {
     async propagate(model, edit, options) {
       const { result } = await client.call('propagate', { edit }, { ...options, needs: stateOf(model) });
       return result as Propagation;
+    },
+    async readPlainly(model, request, mentioned) {
+      const needs = stateOf(model);
+      return (await client.call('read_plainly', { request, mentioned: [...mentioned] }, { needs })).result;
     },
     async prompts(model, request, mentioned) {
       const needs = stateOf(model);

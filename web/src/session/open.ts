@@ -16,6 +16,7 @@ import { misfit } from './evaluation';
 import { addressOf, type FileSet, modelOf, readUrl } from './files';
 import { galleryUrl } from './gallery';
 import type { ModelCore } from './model_core';
+import { takeSliders } from './one_file';
 import { carryOver } from './relabel';
 import { document, newEntry, replaceDocument, run, say } from './session';
 
@@ -38,27 +39,53 @@ export const awaitedAddress = computed(() => {
   return url === undefined ? null : addressOf(url);
 });
 
+/** Address of a model that a link names, which waits for leave to be fetched. */
+export const offered = signal<string | null>(null);
+
 /** Camera of the work that was opened last, for the stage to take over. */
 export const openedView = signal<Saved['view'] | null>(null);
 
+/** A model that was read, and the work to show on it. */
+interface Opened {
+  readonly model: OpenModel;
+  readonly work: Work | null;
+  /** A sentence on sliders in the file that are left out. */
+  readonly refused: string | null;
+}
+
+/** Reads and abstracts a model. Sliders in its file are taken for the work on it where no other is given. */
 async function abstract(
   core: ModelCore,
   get: (signal: AbortSignal) => Promise<ModelFiles>,
   source: ModelSource,
-  labels: Labels,
-): Promise<OpenModel | null> {
+  given: Work | null,
+): Promise<Opened | null> {
   return run('Reading the model', async (options) => {
-    const files = await decompressed(await get(options.signal), options);
-    const shape = await core.open(files, options, labels);
+    const taken = takeSliders(await get(options.signal));
+    const found = given === null ? taken.found : null;
+    const files = await decompressed(taken.files, options);
+    let labels = labelsOf(given ?? found?.work ?? null);
+    let shape = await core.open(files, options, labels);
+    const misfits = found?.misfit(shape) ?? null;
+    if (misfits !== null && labels.size > 0) {
+      labels = noLabels;
+      shape = await core.open(files, options, labels);
+    }
     prepared.set(files, await loadModel(files));
     options.signal.throwIfAborted();
-    return { files, source, shape, labels };
+    const model = { files, source, shape, labels };
+    if (given !== null) return { model, work: given, refused: null };
+    return { model, work: misfits === null ? (found?.work ?? null) : null, refused: misfits ?? taken.refused };
   });
 }
+
+const labelsOf = (work: Work | null): Labels =>
+  work?.saved.labels === undefined ? noLabels : new Map(work.saved.labels);
 
 function show(model: OpenModel, work: Work | null): boolean {
   const next = work === null ? { ...emptyDocument, model } : documentOf(model, work.saved);
   openedView.value = work?.saved.view ?? null;
+  offered.value = null;
   replaceDocument(next, `open ${model.shape.name}`);
   const remarks = [remarksOn(model), work === null ? '' : lostWords(work)].filter(Boolean).join(' ');
   if (remarks !== '') say(remarks);
@@ -99,14 +126,16 @@ async function openFrom(
   source: ModelSource,
   work: Work | null,
 ): Promise<boolean> {
-  const saved = work?.saved ?? null;
-  const model = await abstract(core, get, source, saved?.labels === undefined ? noLabels : new Map(saved.labels));
-  if (model === null) return false;
-  if (saved !== null && saved.model.sha256 !== model.shape.sha256) {
-    say(`${model.shape.name} is not the file that this work was made on (${saved.model.name}).`, 'error');
+  const opened = await abstract(core, get, source, work);
+  if (opened === null) return false;
+  const { model, refused } = opened;
+  if (work !== null && work.saved.model.sha256 !== model.shape.sha256) {
+    say(`${model.shape.name} is not the file that this work was made on (${work.saved.model.name}).`, 'error');
     return false;
   }
-  return show(model, work);
+  show(model, opened.work);
+  if (refused !== null) say(refused, 'error');
+  return true;
 }
 
 /** Files of a drop or a picker. When work waits for its model, this is taken for it. */
@@ -128,6 +157,24 @@ export function openGallery(core: ModelCore, id: string, work: Work | null = nul
 /** Sends a GET to the address: only where a person has typed it or has said so. */
 export function openUrl(core: ModelCore, url: string, work: Work | null = null): Promise<boolean> {
   return openFrom(core, async (signal) => modelOf(await readUrl(url, signal)), { kind: 'url', url }, work);
+}
+
+/**
+ * Opens the model that a link to the page names (`?model=`): at once where it lies beside the page or below it, as whoever
+ * put the page there has put it; else it is offered, for the same reason as in openSaved().
+ */
+export async function openNamed(core: ModelCore, address: string): Promise<void> {
+  const full = addressOf(address);
+  const folder = new URL('.', location.href);
+  const isOurs = full === null || (full.startsWith(folder.href) && new URL(full).search === '');
+  if (isOurs) await openUrl(core, address);
+  else offered.value = full;
+}
+
+/** Fetches the model that is offered. */
+export async function fetchOffered(core: ModelCore): Promise<void> {
+  const url = offered.peek();
+  if (url !== null) await openUrl(core, url);
 }
 
 /** Fetches the model of the work that waits. */

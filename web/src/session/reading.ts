@@ -12,3 +12,23 @@ export function readLayer(entry: LayerEntry, measure: Measure, at: readonly numb
   if (state.kind !== 'ready' || shape === undefined || index < 0) return at.map(() => Number.NaN);
   return readAt(shape, measure, state.evaluator, layers.map(sliderValue), index, at);
 }
+
+/** The slider value at which a measure reads `wanted`, or the nearest there is: a scan, then bisection. */
+export function solveLayer(entry: LayerEntry, measure: Measure, wanted: number): number {
+  const { min, max } = entry.layer.parameter;
+  const read = (x: number) => readLayer(entry, measure, [x])[0] ?? Number.NaN;
+  const samples = Array.from({ length: 65 }, (_, i) => min + ((max - min) * i) / 64);
+  const errors = samples.map((x) => read(x) - wanted);
+  const nearest = (value: number) => Math.abs(value);
+  let best = errors.reduce((found, error, i) => (nearest(error) < nearest(errors[found] ?? 0) ? i : found), 0);
+  for (let i = 0; i < 64; i++) if ((errors[i] ?? 0) * (errors[i + 1] ?? 0) < 0) best = i;
+  let [low, high] = [samples[best] ?? 0, samples[best + 1] ?? samples[best] ?? 0];
+  const rising = (errors[best + 1] ?? 0) > (errors[best] ?? 0);
+  if ((errors[best] ?? 0) * (errors[best + 1] ?? 1) >= 0) return low;
+  for (let i = 0; i < 40; i++) {
+    const middle = (low + high) / 2;
+    if (read(middle) < wanted === rising) low = middle;
+    else high = middle;
+  }
+  return (low + high) / 2;
+}

@@ -82,7 +82,8 @@ function relationKeys(shape: Shape): Map<string, string> {
   const part = partKeys(shape);
   return new Map(
     shape.relations.map(({ id, kind, parts }) => {
-      const what = kind === 'reflection' || kind === 'translation' || kind === 'rotation' ? kind : 'attachment';
+      const isJoint = kind === 'point' || kind === 'line' || kind === 'face' || kind === 'volume';
+      const what = isJoint ? 'attachment' : kind;
       return [
         id,
         `${what} ${parts

@@ -5,7 +5,7 @@ import { AskError } from '../llm/ask_error';
 import { type Answer, ask, type Estimate, estimate, type TaskProgress } from '../llm/session';
 import type { Source } from '../llm/source';
 import type { Layer } from '../program/types';
-import type { Inference } from '../worker/protocol';
+import type { Inference, PlainInference, Target } from '../worker/protocol';
 import type { EditInput, OpenModel } from './document';
 import type { Mark } from './history';
 import type { ModelCore } from './model_core';
@@ -27,6 +27,10 @@ export interface Understood {
   readonly typed: string;
   readonly mentioned: readonly string[];
   readonly answer: Answer;
+  /** How sure it is and what it comes to, where no language model was asked. */
+  readonly plain: PlainInference['plain'] | null;
+  /** How far the slider shall go, as it was said; null when that was not said, or is no longer about this edit. */
+  readonly target: Target | null;
   /** As corrected by hand; null when there is no reading to begin with. */
   readonly edit: EditInput | null;
   /** Which of the readings the edit's seed is. */
@@ -56,6 +60,8 @@ export interface RequestParts {
   votes(): number | null;
   /** Shows what a layer does. */
   play(key: number): void;
+  /** Puts a layer's slider where it was said to go. */
+  aim(key: number, target: Target): void;
 }
 
 export interface Requests {
@@ -71,9 +77,15 @@ export interface Requests {
   cancelRequest(): void;
   /** What was said of another model is of no use for this one. What is typed stays. Answers how to stop. */
   forgetOtherModels(): () => void;
-  /** Asks what is typed. */
+  /**
+   * Reads what is typed: plainly, where that is sure or nobody else can be asked, else by a language model or its
+   * recorded answers.
+   */
   sendRequest(): Promise<void>;
-  /** Asks the same once more, answers that were kept included. What comes of it takes the place of what came before. */
+  /**
+   * Asks a language model about the same once more, answers that were kept included. What comes of it takes the place of
+   * what came before.
+   */
   askAgain(before: Understood): Promise<void>;
   /** Calls and tokens that sending would take; null where nothing is paid for. */
   estimateRequest(): Promise<Estimate | null>;
@@ -88,7 +100,7 @@ export interface Requests {
 /** Failures that the settings can cure. */
 const settingFailures = ['settings', 'no_key', 'wrong_key', 'no_credit', 'model_unknown', 'blocked', 'no_recording'];
 
-export function createRequests({ session, models, questionOf, votes, play }: RequestParts): Requests {
+export function createRequests({ session, models, questionOf, votes, play, aim }: RequestParts): Requests {
   const { document } = session;
   const requestText = signal('');
   const mentioned = signal<readonly string[]>([]);
@@ -128,7 +140,37 @@ export function createRequests({ session, models, questionOf, votes, play }: Req
     request.value = { kind: 'asking', tasks: [], cancel };
     try {
       const known = parts.filter((id) => model.shape.parts.some((part) => part.id === id));
-      const question = await questionOf(model, typed.trim(), known, before !== null);
+      const readPlainly = () => core.readPlainly(model, typed.trim(), known);
+      const whole = (inference: Inference, plain: PlainInference['plain'] | null): Promise<void> =>
+        understand(
+          {
+            kind: 'understood',
+            model,
+            request: typed.trim(),
+            typed,
+            mentioned: parts,
+            answer: { inference, tokens: { input: 0, output: 0 }, calls: 0, kept: 0, failures: [] },
+            plain,
+            ...readingOf(inference, plain, 0),
+            reading: 0,
+            made: null,
+          },
+          signal,
+        );
+      // What costs nothing and is sure comes first.
+      if (before === null && votes() !== null) {
+        const read = await readPlainly();
+        if (read.plain.sure) return await whole(read, read.plain);
+      }
+      let question: Question;
+      try {
+        question = await questionOf(model, typed.trim(), known, before !== null);
+      } catch (error) {
+        if (before !== null || !(error instanceof AskError) || error.kind !== 'no_recording') throw error;
+        const read = await readPlainly();
+        if (read.plain.readings.length === 0) throw notUnderstood(read.plain);
+        return await whole(read, read.plain);
+      }
       const prompts = await core.prompts(model, question.request, question.mentioned);
       const answer = await ask(
         prompts,
@@ -141,26 +183,33 @@ export function createRequests({ session, models, questionOf, votes, play }: Req
           },
         },
       );
-      signal.throwIfAborted();
-      if (document.peek().model !== model)
-        throw new Error('Another model was opened meanwhile; send the request again');
-      const read = answer.inference.edit as Partial<EditInput> | null;
-      request.value = {
-        kind: 'understood',
-        model,
-        request: question.request,
-        typed,
-        mentioned: parts,
-        answer,
-        edit: read && { seed: [], disabled: [], hints: {}, ...read },
-        reading: 0,
-        made: before?.made ?? null,
-      };
-      if (read !== null && answer.inference.seed.outcome === 'decided') await applyRequest();
+      await understand(
+        {
+          kind: 'understood',
+          model,
+          request: question.request,
+          typed,
+          mentioned: parts,
+          answer,
+          plain: null,
+          ...readingOf(answer.inference, null, 0),
+          reading: 0,
+          made: before?.made ?? null,
+        },
+        signal,
+      );
     } catch (error) {
       if (signal.aborted) request.value = { kind: 'idle' };
       else fail(error);
     }
+  }
+
+  async function understand(state: Understood, signal: AbortSignal): Promise<void> {
+    signal.throwIfAborted();
+    if (document.peek().model !== state.model)
+      throw new Error('Another model was opened meanwhile; send the request again');
+    request.value = state;
+    if (state.edit !== null && state.answer.inference.seed.outcome === 'decided') await applyRequest();
   }
 
   function correct(state: Understood): void {
@@ -195,7 +244,8 @@ export function createRequests({ session, models, questionOf, votes, play }: Req
         mentioned.value = [];
       }
     });
-    play(made.key);
+    if (state.target === null) play(made.key);
+    else aim(made.key, state.target);
   }
 
   return {
@@ -238,29 +288,71 @@ export function createRequests({ session, models, questionOf, votes, play }: Req
       const text = requestText.peek().trim();
       const count = votes();
       if (count === null || core === null || model === null || text === '') return null;
+      // What will be read without a language model costs nothing.
+      if ((await core.readPlainly(model, text, mentioned.peek())).plain.sure) return null;
       const { prompts } = await core.prompts(model, text, mentioned.peek());
       return estimate(prompts, count);
     },
     chooseReading(reading) {
       const state = request.peek();
       if (state.kind !== 'understood') return;
-      const statements = state.answer.inference.seed.readings[reading]?.statements;
-      if (statements === undefined) return;
-      const others = state.edit ?? { disabled: [], hints: {} };
-      // The core has checked the statements against the shape.
-      const seed = statements as unknown as EditInput['seed'];
-      correct({ ...state, reading, edit: { ...others, seed } });
+      const { edit, target } = readingOf(state.answer.inference, state.plain, reading);
+      if (edit === null) return;
+      // A reading of a language model is one of the seed alone.
+      const whole = state.plain === null && state.edit !== null ? { ...state.edit, seed: edit.seed } : edit;
+      correct({ ...state, reading, edit: whole, target });
     },
     correctEdit(change) {
       const state = request.peek();
-      if (state.kind === 'understood' && state.edit !== null) correct({ ...state, edit: { ...state.edit, ...change } });
+      if (state.kind !== 'understood' || state.edit === null) return;
+      const target = change.seed === undefined ? state.target : null;
+      correct({ ...state, edit: { ...state.edit, ...change }, target });
     },
     applyRequest,
   };
 }
 
+/** The edit of one of the readings, and how far it was said to go. The core has checked it against the shape. */
+function readingOf(
+  { seed, edit }: Inference,
+  plain: PlainInference['plain'] | null,
+  reading: number,
+): Pick<Understood, 'edit' | 'target'> {
+  const whole = (read: object | null | undefined): EditInput | null =>
+    read ? { seed: [], disabled: [], hints: {}, ...read } : null;
+  if (plain !== null) {
+    const read = plain.readings[reading];
+    return { edit: whole(read?.edit), target: read?.target ?? null };
+  }
+  const statements = seed.readings[reading]?.statements;
+  const others = whole(edit);
+  if (reading === 0) return { edit: others, target: null };
+  const chosen = statements as unknown as EditInput['seed'] | undefined;
+  return { edit: chosen ? { disabled: [], hints: {}, ...others, seed: chosen } : null, target: null };
+}
+
+/** What was not understood of a request that no language model read, as sentences. */
+function unsureWords({ reason, unused }: PlainInference['plain']): string {
+  const words = unused.slice(0, 5).map((word) => `“${word}”`);
+  const missed =
+    words.length === 0 ? null : `${words.join(' and ')} ${words.length === 1 ? 'is' : 'are'} not understood`;
+  return [reason, missed].filter((text) => text !== null).join('; ') || 'it is not clear';
+}
+
+const notUnderstood = (plain: PlainInference['plain']) =>
+  new AskError(
+    'no_recording',
+    '',
+    `Without a language model this was not understood: ${unsureWords(plain)}`,
+    'Say it in other words, or enter a key in the settings to ask a language model',
+  );
+
 /** Why there is no clear reading, as a sentence; null when there is. */
-export function whyUndecided({ seed, refused }: Inference): string | null {
+export function whyUndecided(
+  { seed, refused }: Inference,
+  plain: PlainInference['plain'] | null = null,
+): string | null {
+  if (plain !== null) return plain.sure ? null : `Not sure: ${unsureWords(plain)}. Did you mean one of these?`;
   switch (seed.outcome) {
     case 'decided':
       return null;

@@ -1,4 +1,5 @@
-// The page's own requests: who is asked, and what without a key is asked of recordings.
+// The page's own requests: who is asked, and what without a key is asked of recordings. What has none is read without a
+// language model (request.ts).
 import { AskError } from '../llm/ask_error';
 import { browserCache } from '../llm/cache';
 import { findRecorded, loadRecordings } from '../llm/recordings';
@@ -9,6 +10,7 @@ import type { OpenModel } from './document';
 import { playOnce } from './play';
 import { createRequests, type Question } from './request';
 import { session } from './session';
+import { aimAt } from './target';
 
 const galleryOf = ({ source }: OpenModel): string | null => (source.kind === 'gallery' ? source.id : null);
 
@@ -72,4 +74,5 @@ export const {
   questionOf,
   votes: () => (isDemo.peek() ? null : settings.peek().votes),
   play: playOnce,
+  aim: aimAt,
 });

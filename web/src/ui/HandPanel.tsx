@@ -147,6 +147,7 @@ function Disabled({ shape, part, disabled }: { shape: Shape; part: string; disab
     ['kind:reflection', 'all mirror symmetries'],
     ['kind:translation', 'all even rows'],
     ['kind:rotation', 'all rings'],
+    ['kind:ground', 'all that stands on the floor'],
   ] as const;
   const own = shape.relations.filter(({ parts }) => parts.includes(part));
   const items = [

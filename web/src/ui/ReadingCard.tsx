@@ -17,6 +17,7 @@ import {
   requestText,
 } from '../session/requests';
 import { document, pointedAt, task } from '../session/session';
+import { dialog } from './actions';
 import { Hints } from './HandPanel';
 import { Icon } from './Icon';
 import { SeedFields } from './SeedFields';
@@ -26,7 +27,7 @@ import { relationWords, statementWords } from './words';
 export function ReadingCard({ state }: { state: Understood }) {
   const { inference } = state.answer;
   const { seed } = inference;
-  const undecided = whyUndecided(inference);
+  const undecided = whyUndecided(inference, state.plain);
   const layer = requestLayer.value;
   const chosen = seed.readings[state.reading];
   const open = useSignal(undecided !== null);
@@ -61,9 +62,47 @@ export function ReadingCard({ state }: { state: Understood }) {
           <Icon name="close" />
         </button>
       </header>
+      {state.plain !== null && <Plainly state={state} />}
       {note && <p class="quiet note-line">{note}</p>}
       {open.value && <Corrections state={state} />}
     </section>
+  );
+}
+
+/** Says that no language model was asked, and asks one; with what may have been meant, to be clicked, when it is not sure. */
+function Plainly({ state }: { state: Understood }) {
+  const { plain } = state;
+  const offers = plain !== null && !plain.sure && requestLayer.value === null ? plain.readings : [];
+  const choose = (reading: number) => {
+    chooseReading(reading);
+    void applyRequest();
+  };
+  return (
+    <>
+      {offers.length > 0 && (
+        <div class="offers">
+          {offers.map(({ words }, i) => (
+            <button key={words} type="button" class="try" disabled={task.value !== null} onClick={() => choose(i)}>
+              {words}
+            </button>
+          ))}
+        </div>
+      )}
+      <p class="plainly">
+        <span class="quiet grow">Read without a language model</span>
+        <button
+          type="button"
+          class="button"
+          disabled={requestText.value !== '' && requestText.value !== state.typed}
+          onClick={() => {
+            if (isDemo.peek()) dialog.value = 'model';
+            else void askAgain(state);
+          }}
+        >
+          Ask a language model instead
+        </button>
+      </p>
+    </>
   );
 }
 
@@ -102,9 +141,11 @@ function Corrections({ state }: { state: Understood }) {
                 onChange={() => chooseReading(i)}
               />
               <span class="grow">{words}</span>
-              <span class="quiet votes">
-                {votes} of {seed.of}
-              </span>
+              {state.plain === null && (
+                <span class="quiet votes">
+                  {votes} of {seed.of}
+                </span>
+              )}
             </label>
           ))}
         </fieldset>
@@ -133,9 +174,11 @@ function Corrections({ state }: { state: Understood }) {
                   }}
                 />
                 <span class="grow">Keep: {known ? relationWords(document.value, known) : words}</span>
-                <span class="quiet votes">
-                  {votes} of {of}
-                </span>
+                {state.plain === null && (
+                  <span class="quiet votes">
+                    {votes} of {of}
+                  </span>
+                )}
               </label>
             );
           })}
@@ -152,7 +195,7 @@ function Corrections({ state }: { state: Understood }) {
             Apply this
           </button>
         )}
-        {!isDemo.value && (
+        {!isDemo.value && state.plain === null && (
           <button
             type="button"
             class="button"
@@ -163,7 +206,7 @@ function Corrections({ state }: { state: Understood }) {
             Ask again
           </button>
         )}
-        <span class="quiet grow votes">{spentWords(state.answer)}</span>
+        {state.plain === null && <span class="quiet grow votes">{spentWords(state.answer)}</span>}
       </div>
       <Failures answer={state.answer} />
     </div>

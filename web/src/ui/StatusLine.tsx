@@ -3,7 +3,7 @@ import { signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { autosave } from '../session/autosave';
 import { core, models } from '../session/core';
-import { awaited, awaitedAddress, fetchAwaited } from '../session/open';
+import { awaited, awaitedAddress, fetchAwaited, fetchOffered, offered } from '../session/open';
 import { document, notice, task } from '../session/session';
 import { saveSession } from './actions';
 import { isInForeignFrame } from './frame';
@@ -47,41 +47,43 @@ export function StatusLine() {
   );
 }
 
-/** Work that waits for its model. What it asks to be fetched is shown first: the address is a stranger's. */
+/** A page around this one could lure a click here: it gets nothing but this site's own files. */
+const mayFetch = (address: string) =>
+  (new URL(address).origin === location.origin || !isInForeignFrame()) && models.value !== null;
+
+/** Work that waits for its model, or a model that a link names. What they ask for is shown first: it is a stranger's. */
 function Awaited() {
   const work = awaited.value;
-  const address = awaitedAddress.value;
-  if (work === null) return null;
-  const forget = (
-    <button
-      type="button"
-      class="button"
-      onClick={() => {
-        awaited.value = null;
-      }}
-    >
-      Forget it
-    </button>
-  );
-  const { name } = work.saved.model;
-  // A page around this one could lure a click here: it gets nothing but this site's own files.
-  const isOffered =
-    address !== null && (new URL(address).origin === location.origin || !isInForeignFrame()) && models.value !== null;
+  const address = work === null ? offered.value : awaitedAddress.value;
+  if (work === null && address === null) return null;
+  const made = work === null ? 'This link names a model' : `This work was made on “${work.saved.model.name}”`;
+  const fetchIt = () => {
+    const core = models.value;
+    if (core !== null) void (work === null ? fetchOffered(core) : fetchAwaited(core));
+  };
   return (
     <p class="panel note">
-      {isOffered ? (
+      {address !== null && mayFetch(address) ? (
         <>
           <span>
-            This work was made on “{name}”, to be fetched from <code class="address">{address}</code>
+            {made}, to be fetched from <code class="address">{address}</code>
           </span>
-          <button type="button" class="button" onClick={() => models.value && void fetchAwaited(models.value)}>
+          <button type="button" class="button" onClick={fetchIt}>
             Fetch it
           </button>
         </>
       ) : (
-        <span>This work was made on “{name}”. Drop that file here to see it.</span>
+        <span>{made}. Drop that file here to see it.</span>
       )}
-      {forget}
+      <button
+        type="button"
+        class="button"
+        onClick={() => {
+          awaited.value = offered.value = null;
+        }}
+      >
+        Forget it
+      </button>
     </p>
   );
 }

@@ -1,6 +1,14 @@
 // Model, history, sharing, export, help, theme.
 import { document, redo, redoLabel, selection, undo, undoLabel } from '../session/session';
-import { dialog, exportModel, exportProgram, exportScreenshot, saveSession } from './actions';
+import {
+  dialog,
+  exportModel,
+  exportOneFile,
+  exportProgram,
+  exportScreenshot,
+  exportSliders,
+  saveSession,
+} from './actions';
 import { Icon } from './Icon';
 import { Menu, type MenuItem } from './Menu';
 import { startTour } from './Tour';
@@ -20,6 +28,8 @@ function exportItems(): MenuItem[] {
       act: () => void exportModel('selected'),
     },
     { label: 'Animated by the last slider', hint: '.glb', disabled: noLayer, act: () => void exportModel('animated') },
+    { label: 'Model with sliders', hint: 'one .glb', disabled: noLayer, act: () => void exportOneFile() },
+    { label: 'Sliders alone', hint: '.sliders.json', disabled: noLayer, act: () => void exportSliders() },
     { label: 'Program', hint: '.json', disabled: noLayer, act: exportProgram },
     { label: 'Session', hint: '.parsel.json', disabled: none, act: saveSession },
     { label: 'Picture', hint: '.png', disabled: none, act: () => void exportScreenshot() },

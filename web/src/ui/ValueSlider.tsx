@@ -7,7 +7,7 @@ import { nameOf } from '../session/document';
 import { titleOf } from '../session/layers';
 import { formatMeasure, larger, type Measure, measureOf, parseMeasure } from '../session/measure';
 import { interrupt } from '../session/play';
-import { readLayer } from '../session/reading';
+import { readLayer, solveLayer } from '../session/reading';
 import { compiled, document, settle, setValue, slide, sliderValue, step } from '../session/session';
 
 const steps = 200;
@@ -109,26 +109,6 @@ function readingOf(drawn: LayerEntry): Reading {
   return { text: `${measureName(measure)} ${before} to ${after}`, measure, rest, now };
 }
 
-/** The slider value at which a measure reads `wanted`, or the nearest there is: a scan, then bisection. */
-function solveFor(entry: LayerEntry, measure: Measure, wanted: number): number {
-  const { min, max } = entry.layer.parameter;
-  const read = (x: number) => readLayer(entry, measure, [x])[0] ?? Number.NaN;
-  const samples = Array.from({ length: 65 }, (_, i) => min + ((max - min) * i) / 64);
-  const errors = samples.map((x) => read(x) - wanted);
-  const nearest = (value: number) => Math.abs(value);
-  let best = errors.reduce((found, error, i) => (nearest(error) < nearest(errors[found] ?? 0) ? i : found), 0);
-  for (let i = 0; i < 64; i++) if ((errors[i] ?? 0) * (errors[i + 1] ?? 0) < 0) best = i;
-  let [low, high] = [samples[best] ?? 0, samples[best + 1] ?? samples[best] ?? 0];
-  const rising = (errors[best + 1] ?? 0) > (errors[best] ?? 0);
-  if ((errors[best] ?? 0) * (errors[best + 1] ?? 1) >= 0) return low;
-  for (let i = 0; i < 40; i++) {
-    const middle = (low + high) / 2;
-    if (read(middle) < wanted === rising) low = middle;
-    else high = middle;
-  }
-  return (low + high) / 2;
-}
-
 interface TypedValueProps {
   readonly entry: LayerEntry;
   readonly measure: Measure;
@@ -148,7 +128,7 @@ function TypedValue({ entry, measure, now, rest }: TypedValueProps) {
     wrong.value = wanted === null;
     if (wanted === null) return;
     typed.value = null;
-    const found = solveFor(entry, measure, wanted);
+    const found = solveLayer(entry, measure, wanted);
     setValue(entry.key, found);
     const { min, max } = entry.layer.parameter;
     const [reached = wanted] = readLayer(entry, measure, [found]);

@@ -6,6 +6,7 @@ import { editedName, plainName } from '../session/download_names';
 import { activeLayers } from '../session/evaluation';
 import { type FileSet, hasModel, sessionOf, unpacked } from '../session/files';
 import type { ExportOptions } from '../session/model_core';
+import { oneFile, slidersOfWork } from '../session/one_file';
 import { openFiles, openSaved } from '../session/open';
 import { document, run, say, selection } from '../session/session';
 import { fragmentOf } from '../share/link';
@@ -61,6 +62,21 @@ export function saveSession(): void {
 export function exportProgram(): void {
   const { model } = document.peek();
   if (model) download(fileName('.program.json'), jsonBlob(programOf(model.shape, activeLayers(document.peek()))));
+}
+
+/** What the page would be handed on with: the model, its sliders, and how it is seen. */
+export async function exportOneFile(): Promise<void> {
+  const core = models.peek();
+  if (core === null || document.peek().model === null) return;
+  const glb = await run('Writing the file', () => oneFile(core, document.peek(), stage.peek()?.rig.pose));
+  if (glb === null) return;
+  download(`${editedName(modelName(), 'sliders')}.glb`, new Blob([glb as BlobPart], { type: 'model/gltf-binary' }));
+}
+
+/** The sliders alone, for a page that has the model. */
+export async function exportSliders(): Promise<void> {
+  const sliders = await run('Writing the file', async () => slidersOfWork(document.peek(), stage.peek()?.rig.pose));
+  if (sliders !== null) download(fileName('.sliders.json'), jsonBlob(sliders));
 }
 
 export async function exportScreenshot(): Promise<void> {

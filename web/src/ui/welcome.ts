@@ -1,11 +1,12 @@
-// What stands on the stage when the page has loaded: the work of a link, else that of the last visit, else the first
+// What stands on the stage when the page has loaded: the work of a link, or the model that it
+// names, else the work of the last visit, else the first
 // model of the gallery with an edit that shows itself once.
 import { effect } from '@preact/signals';
 import { autosave, type Restored } from '../session/autosave';
 import { models } from '../session/core';
 import { loadGallery } from '../session/gallery';
 import type { ModelCore } from '../session/model_core';
-import { openGallery, openSaved, reopen } from '../session/open';
+import { openGallery, openNamed, openSaved, reopen } from '../session/open';
 import { playOnce } from '../session/play';
 import { forgetOtherModels } from '../session/requests';
 import { document, propagate, say } from '../session/session';
@@ -55,10 +56,22 @@ async function openFragment(core: ModelCore): Promise<string | null> {
   return null;
 }
 
+/** `?model=ADDRESS`: the model that a link names. Taken out of the address as the fragment is. */
+function takeNamed(): string | null {
+  const url = new URL(location.href);
+  const address = url.searchParams.get('model');
+  if (address === null || isEmbedded) return address;
+  url.searchParams.delete('model');
+  history.replaceState(null, '', url);
+  return address;
+}
+
 async function begin(core: ModelCore): Promise<void> {
+  const named = takeNamed();
   const kept = isEmbedded ? Promise.resolve(null) : autosave.restore();
   const fault = await openFragment(core);
   if (fault === null) return;
+  if (fault === '' && named !== null) return openNamed(core, named);
   await beginWithoutLink(core, await kept);
   if (fault !== '') say(fault, 'error'); // last, since opening a model clears what was said before
 }

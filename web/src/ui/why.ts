@@ -33,7 +33,7 @@ export function inWords(document: Document, text: string): string {
       }[word] ?? word
     );
   });
-  return named.replace(/ \([rtoa]\d+\)/g, '');
+  return named.replace(/ \([rtoag]\d+\)/g, '');
 }
 
 export interface PartWhy {
@@ -100,7 +100,7 @@ function statementsOn(shape: Shape, { statements }: Layer, id: string): readonly
 /** Why a part stays where it is. */
 function stillWords(document: Document, shape: Shape, layer: Layer, id: string, step: TraceStep | undefined): string {
   if (step && step.kind === 'left_alone') return sentence(`stays: ${inWords(document, step.why)}`);
-  const relations = shape.relations.filter(({ parts }) => parts.includes(id));
+  const relations = shape.relations.filter(({ kind, parts }) => kind !== 'ground' && parts.includes(id));
   if (relations.length === 0) return 'Stays: nothing is joined to it, and nothing mirrors it.';
   const moved = movedParts(shape, layer.statements);
   const near = relations.filter(({ parts }) => parts.some((other) => other !== id && moved.has(other)));
@@ -147,6 +147,6 @@ export function brokenWords(shape: Shape, layer: Layer, relation: ShapeRelation,
     const amount = formatMeasure(measure.what, Math.abs(change), larger(rest, value));
     return [`${change < 0 ? '−' : '+'}${amount}`];
   };
-  const verb = relation.kind === 'reflection' ? 'no longer mirrored' : 'loose';
+  const verb = { reflection: 'no longer mirrored', ground: 'off the floor' }[relation.kind as string] ?? 'loose';
   return `${verb} beyond ${[...at(below), ...at(above)].join(' and ')}, by up to ${off}`;
 }

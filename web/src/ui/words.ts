@@ -177,6 +177,7 @@ const joints = { point: 'at a point', line: 'along a line', face: 'by a face', v
 export function relationWords(document: Document, relation: ShapeRelation, from?: string): string {
   const [a = '', b = ''] = relation.parts.map((id) => nameOf(document, id));
   const other = from !== undefined && from === relation.parts[1] ? a : b;
+  if (relation.kind === 'ground') return from === undefined ? `${a} stands on the floor` : 'stands on the floor';
   if (relation.kind === 'reflection') return from === undefined ? `${a} mirrors ${b}` : `mirrors ${other}`;
   if (isGroup(relation)) {
     const group = nameOf(document, relation.parent);

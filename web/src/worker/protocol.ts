@@ -59,6 +59,42 @@ const inferenceSchema = v.looseObject({
 });
 export type Inference = v.InferOutput<typeof inferenceSchema>;
 
+/** How far an edit is to go, as it was said: in metres, radians or pieces; `times` as a factor. One of the three. */
+const targetSchema = v.strictObject({
+  /** null: the whole. */
+  part: v.nullable(v.string()),
+  what: v.picklist(['width', 'height', 'depth', 'size', 'distance', 'angle', 'count', 'spacing']),
+  by: v.optional(v.number()),
+  to: v.optional(v.number()),
+  times: v.optional(v.number()),
+  /** The slider's value as far as the seed alone tells. */
+  x: v.number(),
+});
+export type Target = v.InferOutput<typeof targetSchema>;
+
+/** A request read without a language model. */
+const plainSchema = v.strictObject({
+  ...inferenceSchema.entries,
+  plain: v.strictObject({
+    /** Every word was used, and all ways to take them come to one edit. */
+    sure: v.boolean(),
+    language: v.string(),
+    /** Words that were not understood. */
+    unused: v.array(v.string()),
+    /** Why it is not sure, a clause without a full stop. */
+    reason: v.nullable(v.string()),
+    /** The whole edit of each of the seed's readings. */
+    readings: v.array(
+      v.strictObject({
+        edit: v.looseObject({ format: v.literal('parsel/edit'), version: v.literal(1) }),
+        words: v.string(),
+        target: v.nullable(targetSchema),
+      }),
+    ),
+  }),
+});
+export type PlainInference = v.InferOutput<typeof plainSchema>;
+
 /** Every method of the core: the JSON parameters that it takes and the JSON result that it gives. */
 export const methodSchemas = {
   /** The version of the core. */
@@ -134,6 +170,11 @@ export const methodSchemas = {
         v.strictObject({ words: v.string(), schema: v.looseObject({ type: v.optional(v.string()) }) }),
       ),
     }),
+  },
+  /** A request read at once, without a language model; `mentioned` as for prompts. */
+  read_plainly: {
+    parameters: v.strictObject({ request: v.string(), mentioned: v.array(v.string()) }),
+    result: plainSchema,
   },
   /** What the model's replies to a request mean. `texts`: one for each vote that arrived. */
   read_replies: {

@@ -1,0 +1,20 @@
+// A family as an OpenSCAD program whose variables are its sliders: it runs in OpenSCAD and its Customizer without us.
+#pragma once
+
+#include <string>
+
+#include "core/family/family.h"
+
+namespace parsel::family {
+
+/// Sections of sliders with ranges, a boolean for every optional group, and every part with its numbers as sums of the
+/// variables. Deterministic; read_scad() of it gives the base again.
+std::string family_scad(const Family& family);
+
+/// The Customizer's parameter sets, one a variation: {"fileFormatVersion","parameterSets":{name:{variable: text}}}.
+nlohmann::json parameter_sets(const Family& family);
+
+/// The boolean of an optional group: "with_left_arm".
+std::string group_variable(const Family& family, const OptionalGroup& group);
+
+}  // namespace parsel::family

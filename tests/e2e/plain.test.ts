@@ -1,0 +1,197 @@
+// Plain words without a key, and before a language model: read at once, shown, corrected, offered when not sure.
+import { readFileSync } from 'node:fs';
+import type { Server } from 'node:http';
+import { createRequire } from 'node:module';
+import type { AxeResults } from 'axe-core';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { DebugHandle } from '../../web/src/ui/debug';
+import { type ProviderServer, startProviders } from '../web/provider_server';
+import { stool } from './fixture';
+import { launch, openModel, outputFolder, serve } from './harness';
+
+declare const parsel: DebugHandle;
+declare const axe: { run(): Promise<AxeResults> };
+
+const require = createRequire(new URL('../../web/package.json', import.meta.url));
+const axeSource = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+
+let server: Server;
+let url: string;
+let browser: Browser;
+let providers: ProviderServer;
+beforeAll(async () => {
+  ({ url, server } = await serve());
+  browser = await launch();
+  providers = await startProviders();
+});
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+  providers?.server.closeAllConnections();
+  providers?.server.close();
+});
+
+const field = (page: Page) => page.getByLabel('What to change');
+const composer = (page: Page) => page.getByLabel('Request in words');
+const layers = (page: Page) => page.evaluate(() => parsel.document().layers.map(({ layer }) => layer.request));
+const value = (page: Page) => page.evaluate(() => parsel.document().layers[0]?.value ?? Number.NaN);
+
+async function say(page: Page, text: string) {
+  await field(page).fill(text);
+  await field(page).press('Enter');
+}
+
+/** Extent of the seat along an axis, in metres. */
+const seat = (page: Page, axis: number) =>
+  page.evaluate((along) => {
+    const { shape } = parsel.document().model ?? {};
+    const index = shape?.parts.findIndex(({ id }) => id === 'seat') ?? -1;
+    const places = parsel
+      .corners()
+      .slice(24 * index, 24 * index + 24)
+      .filter((_, i) => i % 3 === along);
+    return (Math.max(...places) - Math.min(...places)) * (shape?.frame.scale ?? 1);
+  }, axis);
+
+describe('a model of one’s own, without a key', () => {
+  it('follows a plain sentence at once, and says how it was read', async () => {
+    const { page, complaints } = await openModel(browser, url, stool);
+    await say(page, 'make the seat wider');
+    await composer(page).getByText('Understood:').waitFor();
+    await composer(page).getByText('Read without a language model').waitFor();
+    expect(await composer(page).textContent()).toMatch(/widen seat/);
+    expect(await layers(page)).toEqual(['make the seat wider']);
+    expect(await field(page).inputValue()).toBe('');
+    await page.getByRole('button', { name: 'Undo: make the seat wider' }).click();
+    expect(await layers(page)).toEqual([]);
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+
+  it('puts the slider where a size says', async () => {
+    const { page, complaints } = await openModel(browser, url, stool);
+    const before = await seat(page, 0);
+    await say(page, 'make the seat 3 cm wider');
+    await composer(page).getByText('Understood:').waitFor();
+    await expect.poll(() => value(page)).toBeGreaterThan(0);
+    expect(await seat(page, 0)).toBeCloseTo(before + 0.03, 4);
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+
+  it('offers what may be meant, to be clicked', async () => {
+    const { page, complaints } = await openModel(browser, url, stool);
+    await say(page, 'make the seat 10 wider');
+    await composer(page)
+      .getByText(/Not sure: it gives a number without a unit/)
+      .waitFor();
+    expect(await layers(page)).toEqual([]);
+    expect(await field(page).inputValue()).toBe('make the seat 10 wider');
+    await composer(page)
+      .getByRole('button', { name: /^widen seat.*by 10 cm$/ })
+      .click();
+    await expect.poll(() => layers(page)).toEqual(['make the seat 10 wider']);
+    await composer(page)
+      .getByText(/Understood:/)
+      .waitFor();
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+
+  it('says what it does not understand, and what would', async () => {
+    const { page, complaints } = await openModel(browser, url, stool);
+    await say(page, 'make it nicer');
+    const alert = composer(page).getByRole('alert');
+    await expect.poll(() => alert.textContent()).toMatch(/“nicer” is not understood.*enter a key/);
+    expect(await field(page).inputValue()).toBe('make it nicer');
+    expect(await layers(page)).toEqual([]);
+    await alert.getByRole('button', { name: 'Settings' }).click();
+    await page.getByRole('dialog', { name: 'Language model' }).waitFor();
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+
+  it('can be corrected like any other reading', async () => {
+    const { page, complaints } = await openModel(browser, url, stool);
+    await say(page, 'make the seat wider');
+    await composer(page).getByText('Understood:').click();
+    await composer(page).getByText('Correct the edit').click();
+    await composer(page).locator('.seeds fieldset').first().getByRole('radio', { name: 'Grow' }).check({ force: true });
+    await expect
+      .poll(() => page.evaluate(() => parsel.document().layers[0]?.layer.statements[0]))
+      .toMatchObject({ op: 'scale_3d', part: 'seat' });
+    expect(await layers(page)).toEqual(['make the seat wider']);
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+});
+
+describe('with a key', () => {
+  it('what is sure costs nothing, and a language model can be asked instead', async () => {
+    const { page, complaints } = await openModel(browser, url, stool);
+    await page.getByRole('button', { name: /^Language model/ }).click();
+    await page.getByLabel('Provider').selectOption('openai');
+    await page.getByLabel('Base URL').fill(providers.base('openai'));
+    await page.getByLabel('Base URL').press('Tab');
+    await page.getByLabel('Key', { exact: true }).fill('sk-secret');
+    await page.getByLabel('Model', { exact: true }).fill('tester');
+    await page.getByRole('button', { name: 'Done' }).click();
+    const answer = {
+      edits: [{ op: 'translate', part: 'seat', direction: [0, 1, 0], amount: 'x' }],
+      hints: {},
+      keep: true,
+    };
+    providers.behave(({ body }) => {
+      const task = /Reply to (\w+)/.exec(JSON.stringify(body))?.[1];
+      const own =
+        task === 'seed_edit' ? { edits: answer.edits } : task === 'type_hints' ? { hints: {} } : { keep: true };
+      return { kind: 'reply', text: `\`\`\`json\n${JSON.stringify(own)}\n\`\`\`\n` };
+    });
+    await say(page, 'make the seat wider');
+    await composer(page).getByText('Read without a language model').waitFor();
+    expect(providers.calls).toEqual([]);
+    await composer(page).getByRole('button', { name: 'Ask a language model instead' }).click();
+    await expect
+      .poll(() => page.evaluate(() => parsel.document().layers[0]?.layer.statements[0]?.op))
+      .toBe('translate');
+    expect(providers.calls.length).toBeGreaterThan(0);
+    expect(await layers(page)).toEqual(['make the seat wider']);
+    expect(await composer(page).getByText('Read without a language model').count()).toBe(0);
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+});
+
+describe.each([
+  ['light', { width: 1440, height: 900 }],
+  ['dark', { width: 1440, height: 900 }],
+  ['light', { width: 390, height: 844 }],
+  ['dark', { width: 820, height: 1180 }],
+] as const)('in the %s, %o', (colorScheme, viewport) => {
+  it('axe finds nothing serious when a request is read plainly, sure or not', async () => {
+    const { page } = await openModel(browser, url, stool, { colorScheme, viewport });
+    const found: string[] = [];
+    const look = async (name: string) => {
+      await page.waitForTimeout(300);
+      await page.evaluate(axeSource);
+      const { violations } = await page.evaluate(() => axe.run());
+      const serious = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
+      found.push(...serious.map(({ id, nodes }) => `${name}: ${id}: ${nodes.map(({ target }) => target).join()}`));
+      await page.screenshot({ path: `${outputFolder}/plain-${name}-${colorScheme}-${viewport.width}.png` });
+    };
+    await say(page, 'make the seat 10 wider');
+    await composer(page)
+      .getByText(/Not sure/)
+      .waitFor();
+    await look('unsure');
+    await say(page, 'make the seat wider');
+    await composer(page).getByText('Understood:').waitFor();
+    await look('sure');
+    await say(page, 'make it nicer');
+    await composer(page).getByRole('alert').waitFor();
+    await look('not-understood');
+    expect(found).toEqual([]);
+    await page.context().close();
+  });
+});
