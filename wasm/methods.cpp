@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/amount/amount.h"
-#include "core/export/apply.h"
+#include "core/export/sliders.h"
 #include "core/gallery/gallery.h"
 #include "core/infer/inference.h"
 #include "core/infer/plain_reading.h"
@@ -116,7 +116,8 @@ Result<Output> propagate_edit(const Input& input) {
   return Output{{{"program", to_json(found->program)}, {"trace", to_json(found->trace)}}, {}};
 }
 
-/// program: parsel/program v1; values: one a layer; animate: a parameter's name; only: ids of parts.
+/// program: parsel/program v1; values: one a layer; animate: a parameter's name, or morph: true, for a morph target of
+/// every slider; only: ids of parts.
 Result<Output> apply(const Input& input) {
   if (!model) return no_model();
   const Result<Program> program = program_from_json(input.parameters.value("program", json()));
@@ -133,6 +134,10 @@ Result<Output> apply(const Input& input) {
     if (!parameter.ok()) return parameter.error();
     animate = Animate{*parameter};
   }
+  const json wanted = input.parameters.value("morph", json(false));
+  if (!wanted.is_boolean()) return wrong_parameter("morph", "true or false");
+  const bool morph = wanted.get<bool>();
+  if (morph && animate) return wrong_parameter("morph", "false beside animate");
   ApplyOptions options;
   options.external = model->external;
   for (const json& id : input.parameters.value("only", json::array())) {
@@ -140,12 +145,22 @@ Result<Output> apply(const Input& input) {
     if (!part) return wrong_parameter("only", "a list of parts of the model");
     options.only_parts.push_back(*part);
   }
-  Result<Applied> applied = apply_program(model->file, model->shape, *program, values, animate, std::move(options));
-  if (!applied.ok()) return applied.error();
-  json warnings = json::array();
-  for (const Warning& warning : applied->warnings)
-    warnings.push_back({{"place", warning.place}, {"text", warning.text}});
-  return Output{{{"warnings", std::move(warnings)}}, {std::move(applied->glb)}};
+  json result = json::object();
+  Applied out;
+  if (morph) {
+    Result<SlidersApplied> made = apply_sliders(model->file, model->shape, *program, values, std::move(options));
+    if (!made.ok()) return made.error();
+    result = to_json(*made);
+    out = std::move(made->applied);
+  } else {
+    Result<Applied> applied = apply_program(model->file, model->shape, *program, values, animate, std::move(options));
+    if (!applied.ok()) return applied.error();
+    out = std::move(*applied);
+  }
+  result["warnings"] = json::array();
+  for (const Warning& warning : out.warnings)
+    result["warnings"].push_back({{"place", warning.place}, {"text", warning.text}});
+  return Output{std::move(result), {std::move(out.glb)}};
 }
 
 /// Every model of the gallery: one buffer each, in the order of the list.

@@ -1,15 +1,15 @@
-// parsel apply: an edited model, or one that plays the edit, as GLB.
-#include "core/export/apply.h"
-
+// parsel apply: an edited model, one that plays the edit, or one with a morph target for every slider, as GLB.
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "core/cli/command.h"
 #include "core/cli/input.h"
 #include "core/cli/model.h"
 #include "core/cli/program_file.h"
+#include "core/export/sliders.h"
 
 namespace parsel::cli {
 namespace {
@@ -41,6 +41,8 @@ Status replaces_a_model(const Arguments& arguments) {
 int run(const Arguments& arguments) {
   if (arguments.positional.size() != 2) return misuse("apply takes a model and a program");
   if (!arguments.has("-o")) return misuse("apply needs -o for the file that it writes");
+  if (arguments.has("--morph") && arguments.has("--animate"))
+    return misuse("apply takes --animate or --morph, not both");
   if (const Status allowed = replaces_a_model(arguments); !allowed.ok()) return refuse(allowed.error());
   const auto model = load_model(arguments.positional[0]);
   if (!model) return refuse(model.error());
@@ -59,13 +61,24 @@ int run(const Arguments& arguments) {
     options.only_parts = std::move(parts).value();
   }
 
-  const auto applied = apply_program(model->bytes, shape, *program, *values, animate, std::move(options));
-  if (!applied) return refuse(applied.error());
-  for (const Warning& warning : applied->warnings) {
+  SlidersApplied out;
+  if (arguments.has("--morph")) {
+    auto made = apply_sliders(model->bytes, shape, *program, *values, std::move(options));
+    if (!made) return refuse(made.error());
+    out = std::move(made).value();
+  } else {
+    auto applied = apply_program(model->bytes, shape, *program, *values, animate, std::move(options));
+    if (!applied) return refuse(applied.error());
+    out.applied = std::move(applied).value();
+  }
+  for (const Warning& warning : out.applied.warnings) {
     std::cerr << "warning: " << warning.place << ": " << warning.text << '\n';
   }
-  const Status written = write_file(arguments.option("-o"), applied->glb);
-  return written.ok() ? exit_done : refuse(written.error());
+  const Status written = write_file(arguments.option("-o"), out.applied.glb);
+  if (!written.ok()) return refuse(written.error());
+  if (!arguments.has("--morph")) return exit_done;
+  std::cout << to_json(out).dump(1) << '\n';  // -o names the model
+  return std::cout.flush() ? exit_done : exit_refused;
 }
 
 }  // namespace
@@ -73,11 +86,12 @@ int run(const Arguments& arguments) {
 extern const Command apply_command;
 const Command apply_command = {
     "apply",
-    "MODEL.glb PROGRAM [--set x1=0.2]… [--animate x1] [--only part,part] [--force] -o OUT.glb",
-    "Writes the model as the program edits it (--animate: with an animation that plays the parameter; --force: over "
-    "the model that it reads, or over a file that is no GLB).",
+    "MODEL.glb PROGRAM [--set x1=0.2]… [--animate x1 | --morph] [--only part,part] [--force] -o OUT.glb",
+    "Writes the model as the program edits it (--animate: with an animation that plays the parameter; --morph: with a "
+    "morph target for every slider, as other tools show them, and prints their names and errors in metres; --force: "
+    "over the model that it reads, or over a file that is no GLB).",
     {"--set", "--animate", "--only", "-o"},
-    {"--force"},
+    {"--force", "--morph"},
     run};
 
 }  // namespace parsel::cli

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/export/apply_carry.h"
+#include "core/export/apply_morph.h"
 #include "core/export/apply_nodes.h"
 #include "core/export/apply_sweep.h"
 #include "core/export/apply_vertices.h"
@@ -38,6 +39,7 @@ Result<Applied> apply_state(std::string_view bytes, const Shape& shape, const St
                             const ApplyOptions& options) {
   for (const PartIndex p : options.only_parts) PARSEL_ASSERT(p.value() < shape.parts.size(), "no part of this shape");
   PARSEL_ASSERT(!options.sweep || options.sweep->samples.size() >= 2, "a sweep has two ends");
+  PARSEL_ASSERT(!options.sweep || options.poses.empty(), "either an animation or morph targets");
   auto read = gltf::read_file(bytes, options.external);
   if (!read) return read.error();
   gltf::File file = std::move(read).value();
@@ -54,13 +56,15 @@ Result<Applied> apply_state(std::string_view bytes, const Shape& shape, const St
     if (tracks.empty())
       out.warnings.push_back({"animation " + options.sweep->name, "nothing moves, so it is left out"});
   }
-  if (file.original.container.is_glb && !edits->any && tracks.empty()) {
+  const bool morphs = apply::plan_targets(file, options.poses, edits->nodes, out.warnings);
+  if (file.original.container.is_glb && !edits->any && tracks.empty() && !morphs) {
     out.glb = std::string(bytes);
     return out;
   }
   apply::remove_nodes(file, *scene, edits->nodes, out.warnings);
   const apply::MeshEdits meshes = apply::assign_meshes(file, *scene, shape.frame, edits->nodes);
   if (Status s = apply::write_vertices(file, meshes, out.warnings); !s.ok()) return s.error();
+  if (morphs) apply::describe_targets(file, meshes, out.warnings);
   if (options.sweep) {
     apply::write_animation(file, options.sweep->name, options.sweep->seconds, tracks);
     hide(file, edits->nodes);

@@ -31,8 +31,16 @@ struct Sweep {
   double seconds = 2;          ///< from one end to the other
 };
 
+/// What the model shows when the morph target of that name has weight 1.
+struct Pose {
+  std::string name;  ///< UTF-8, unique among the poses
+  State state;       ///< with as many instances in every group as the edited state
+};
+
 struct ApplyOptions {
   std::optional<Sweep> sweep;
+  /// Morph targets to be added, in this order; not together with a sweep. See apply_morph.h.
+  std::vector<Pose> poses;
   /// When not empty, everything else with a mesh is taken out of the scene (its data stays in the file). A virtual part
   /// stands for its instances.
   std::vector<PartIndex> only_parts;
@@ -46,7 +54,8 @@ struct Applied {
 };
 
 /// `file`: the bytes of the GLB or glTF JSON that `shape` was made from; the result is GLB in both cases. `state`: what
-/// the Evaluator returns. Error: a file that is malformed where it is read, or that the shape was not made from.
+/// the Evaluator returns. Error: a file that is malformed where it is read, or that the shape was not made from; a pose
+/// with other counts than the state.
 Result<Applied> apply_state(std::string_view file, const Shape& shape, const State& state,
                             const ApplyOptions& options = {});
 

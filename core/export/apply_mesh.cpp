@@ -18,6 +18,7 @@ struct Variant {
 };
 
 bool same_variant(const Variant& variant, const NodeEdit& edit, const Maps& maps) {
+  if (variant.first->target_names != edit.target_names) return false;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     if (variant.first->slots[i].keep != edit.slots[i].keep) return false;
     if (variant.maps[i].has_value() != maps[i].has_value()) return false;
@@ -54,6 +55,7 @@ void write_variant(File& file, std::size_t index, const Variant& variant, MeshEd
     }
     ++kept;
   }
+  if (!variant.first->target_names.empty()) out.target_names[index] = variant.first->target_names;
 }
 
 }  // namespace

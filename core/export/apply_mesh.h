@@ -20,7 +20,7 @@ struct Slot {
   Corners rest = Corners::Zero();
   Corners shown = Corners::Zero();  ///< in the edited model
   bool moves = false;               ///< whether its vertices are to be rewritten
-  /// Corners along the sweep of an animation; none where the part is absent.
+  /// Corners along the sweep of an animation, or in the poses of morph targets; none where the part is absent.
   std::vector<std::optional<Corners>> samples;
   bool hidden = false;           ///< absent from the edited model, only seen in the animation
   std::vector<Corners> targets;  ///< displacements for morph targets, normalised
@@ -32,7 +32,8 @@ struct NodeEdit {
   std::size_t mesh = 0;
   Eigen::Affine3d rest_world;  ///< under which the slots' rest cages fit the mesh
   bool added = false;
-  std::vector<Slot> slots;  ///< one for each primitive of the mesh
+  std::vector<Slot> slots;                ///< one for each primitive of the mesh
+  std::vector<std::string> target_names;  ///< of the slots' targets, when they are sliders of their own
 };
 
 using PrimitiveKey = std::pair<std::size_t, std::size_t>;  ///< mesh, primitive
@@ -40,6 +41,7 @@ using PrimitiveKey = std::pair<std::size_t, std::size_t>;  ///< mesh, primitive
 struct MeshEdits {
   std::map<PrimitiveKey, CageMap> maps;            ///< what moves or gets morph targets
   std::map<std::size_t, std::size_t> new_targets;  ///< mesh → how many morph targets each primitive gets
+  std::map<std::size_t, std::vector<std::string>> target_names;  ///< of those that have names, by mesh
 };
 
 /// Gives every edited node a mesh of its own where it must differ from the other nodes that show the same mesh; nodes

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/base/text.h"
+
 namespace parsel::apply {
 namespace {
 
@@ -31,7 +33,11 @@ class Planner {
  public:
   Planner(File& file, gltf::Scene& scene, const Shape& shape, const State& state, const ApplyOptions& options,
           std::vector<Warning>& warnings)
-      : file_(file), scene_(scene), shape_(shape), state_(state), options_(options), warnings_(warnings) {}
+      : file_(file), scene_(scene), shape_(shape), state_(state), options_(options), warnings_(warnings) {
+    for (const Pose& pose : options.poses) samples_.push_back(&pose.state);
+    if (!options.sweep) return;
+    for (const State& sample : options.sweep->samples) samples_.push_back(&sample);
+  }
 
   Result<NodeEdits> run() {
     if (Status s = check_states(); !s.ok()) return s.error();
@@ -54,9 +60,7 @@ class Planner {
  private:
   std::vector<const State*> all_states() const {
     std::vector<const State*> all{&state_};
-    if (options_.sweep) {
-      for (const State& sample : options_.sweep->samples) all.push_back(&sample);
-    }
+    all.insert(all.end(), samples_.begin(), samples_.end());
     return all;
   }
 
@@ -77,6 +81,14 @@ class Planner {
         for (const Corners& corners : group.instances) {
           if (!fits_floats(corners)) return refusal("state", "a corner is not a number that a file can hold");
         }
+      }
+    }
+    for (const Pose& pose : options_.poses) {
+      for (const RelationIndex r : shape_.relations.indices()) {
+        if (pose.state.groups[r].instances.size() == state_.groups[r].instances.size()) continue;
+        return Error{"edit/apply_nodes", "morph target " + printable(pose.name),
+                     "group " + shape_.relations[r].id + " has another number of instances in it",
+                     "leave it out: a morph target moves what is there"};
       }
     }
     return success();
@@ -122,11 +134,9 @@ class Planner {
     slot.rest = rest;
     const std::optional<Corners> now = corners(state_);
     std::optional<Corners> first;
-    if (options_.sweep) {
-      for (const State& sample : options_.sweep->samples) {
-        slot.samples.push_back(corners(sample));
-        if (!first) first = slot.samples.back();
-      }
+    for (const State* sample : samples_) {
+      slot.samples.push_back(corners(*sample));
+      if (!first) first = slot.samples.back();
     }
     slot.hidden = !now && first;
     slot.keep = now || first;
@@ -281,6 +291,7 @@ class Planner {
   const State& state_;
   const ApplyOptions& options_;
   std::vector<Warning>& warnings_;
+  std::vector<const State*> samples_;  ///< further states that the file is to show: poses, or along the sweep
   PartData<std::optional<Membership>> members_;
   std::set<PartIndex> selected_;           ///< of only_parts, members of virtual parts included
   std::map<std::size_t, NodeEdit> edits_;  ///< by node

@@ -313,7 +313,8 @@ class Writer {
     for (const auto& [mesh, count] : edits_.new_targets) {
       for (std::size_t p = 0; p < file_.item("meshes", mesh).get("primitives").size(); ++p) {
         const PrimitiveKey key{mesh, p};
-        JsonText targets(ordered_json::array());
+        JsonText targets = primitive(key).get("targets");  // those that it has stay in front
+        if (!targets.is_array()) targets = JsonText(ordered_json::array());
         for (std::size_t t = 0; t < count; ++t) {
           auto target = new_target(originals_.at(key), map_of(key), t);
           if (!target) return target.error();
@@ -329,21 +330,23 @@ class Writer {
   Result<JsonText> new_target(const Originals& from, const CageMap* map, std::size_t t) {
     const std::size_t count = source_.count(from.position);
     const Corners before = map == nullptr ? Corners(Corners::Zero()) : map->corners;
-    const Corners step = map == nullptr ? before : map->targets[t];
+    // A part that stands still beside others of its mesh has no displacements of its own.
+    const bool moves = map != nullptr && t < map->targets.size();
+    const Corners step = moves ? map->targets[t] : Corners(Corners::Zero());
     const Corners after = before + step;
     ordered_json target;
     for (const char* name : {"POSITION", "NORMAL", "TANGENT"}) {
       const bool is_position = std::strcmp(name, "POSITION") == 0, is_normal = std::strcmp(name, "NORMAL") == 0;
       const auto accessor = is_position ? std::optional(from.position) : is_normal ? from.normal : from.tangent;
-      if (!accessor || (!is_position && map == nullptr)) continue;
+      if (!accessor || (!is_position && !moves)) continue;
       std::vector<float> values;
       values.reserve(count * 3);
       for (std::size_t i = 0; i < count; ++i) {
         Vec3 delta = Vec3::Zero();
         const Vec3 p = source_.element(from.position, i).head<3>(), v = source_.element(*accessor, i).head<3>();
-        if (map != nullptr && is_position) {
+        if (moves && is_position) {
           delta = map->point(p, step);
-        } else if (map != nullptr) {
+        } else if (moves) {
           const Mat3 j0 = map->jacobian(p, before), j1 = map->jacobian(p, after);
           delta = is_normal ? Vec3(transform_normal(j1, v) - transform_normal(j0, v))
                             : Vec3(transform_tangent(j1, v) - transform_tangent(j0, v));

@@ -50,6 +50,7 @@ function feed(model: string, edit: string): void {
     ['program.json', '--set', `${name}=${min / 2}`],
     ['program.txt', '--set', `${name}=${max / 2}`],
     ['program.json', '--animate', name],
+    ['program.json', '--morph'],
   ] as const) {
     accepted('apply', model, program, ...options, '-o', 'edited.glb');
     accepted('inspect', 'edited.glb', '-o', 'edited.json');

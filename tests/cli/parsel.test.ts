@@ -4,6 +4,7 @@ import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'n
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { validateBytes } from 'gltf-validator';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { scripts } from '../web/scripts';
 
@@ -34,6 +35,35 @@ beforeAll(() => {
   run('propagate', 'chair.glb', 'edit.json', '-o', 'program.json', '--trace', 'trace.json');
 });
 afterAll(() => rmSync(folder, { recursive: true }));
+
+/** Debian's package, where it happens to be installed. */
+const hasBlender = spawnSync('blender', ['--version']).status === 0;
+const blenderScript = `
+import bpy
+
+def vertices(path, key):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=path)
+    keys = 0
+    for o in bpy.data.objects:
+        blocks = o.data.shape_keys.key_blocks if o.type == 'MESH' and o.data.shape_keys else {}
+        if key in blocks:
+            blocks[key].value = 1
+            keys += 1
+    graph = bpy.context.evaluated_depsgraph_get()
+    out = {}
+    for o in bpy.data.objects:
+        if o.type == 'MESH':
+            seen = o.evaluated_get(graph)
+            out[o.name] = [seen.matrix_world @ v.co for v in seen.data.vertices]
+    return keys, out
+
+keys, morphed = vertices('sliders.glb', 'x1')
+_, edited = vertices('end.glb', None)
+assert morphed.keys() == edited.keys()
+worst = max((a - b).length for o in edited for a, b in zip(morphed[o], edited[o], strict=True))
+print(f'shape keys {keys}, worst {worst}')
+`;
 
 /** A GLB as .gltf with its binary chunk in a file beside it. */
 function unpack(glb: string, gltf: string, bin: string) {
@@ -136,6 +166,58 @@ describe('parsel', () => {
     expect(readFileSync(join(folder, 'rest.glb')).equals(readFileSync(join(folder, 'chair.glb')))).toBe(true);
     run('apply', 'chair.glb', 'program.json', '--animate', 'x1', '-o', 'film.glb');
     expect(readFileSync(join(folder, 'film.glb')).toString('latin1')).toContain('"animations"');
+  });
+
+  it('apply --morph writes a named morph target for every slider and tells how exact it is', async () => {
+    const out = runJson('apply', 'chair.glb', 'program.json', '--morph', '-o', 'sliders.glb');
+    expect(out.sliders).toMatchObject([{ parameter: 'x1', targets: ['x1', 'x1 −'], linear: true }]);
+    expect(out.sliders[0].error_m).toBeLessThan(1e-6);
+    const bytes = readFileSync(join(folder, 'sliders.glb'));
+    const json = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString());
+    const named = json.meshes.filter((mesh: { extras?: unknown }) => mesh.extras);
+    expect(named.length).toBeGreaterThan(0);
+    for (const { extras, weights, primitives } of named) {
+      expect(extras.targetNames).toEqual(['x1', 'x1 −']);
+      expect(weights).toEqual([0, 0]);
+      for (const { targets } of primitives) expect(targets.length).toBe(2);
+    }
+    const { issues } = await validateBytes(bytes, { maxIssues: 0 });
+    expect(issues.messages).toEqual([]);
+
+    // A value that is set is where the sliders begin; at an end of its range it goes one way alone.
+    const { max } = readJson('program.json').layers[0].parameter;
+    const set = runJson('apply', 'chair.glb', 'program.json', '--morph', '--set', `x1=${max}`, '-o', 'sliders.glb');
+    expect(set.sliders[0].targets).toEqual(['x1 −']);
+    expect(refusal('apply', 'chair.glb', 'program.json', '--morph', '--animate', 'x1', '-o', 'no.glb')).toMatchObject({
+      code: 2,
+    });
+  });
+
+  it('apply --morph refuses a program that changes counts and writes nothing', () => {
+    const bookcase = readJson('gallery.json').find(({ requests }: { requests: { edit: unknown }[] }) =>
+      requests.some(({ edit }) => JSON.stringify(edit).includes('change_count')),
+    );
+    const { edit } = bookcase.requests.find((r: { edit: unknown }) => JSON.stringify(r.edit).includes('change_count'));
+    write('count_edit.json', edit);
+    run('propagate', bookcase.file, 'count_edit.json', '-o', 'count.json');
+    const { code, text } = refusal('apply', bookcase.file, 'count.json', '--morph', '-o', 'count.glb');
+    expect(code).toBe(1);
+    expect(text).toMatch(/layer 1 \(.*\): its slider x1 changes how many instances there are.*; export one value/);
+    expect(readdirSync(folder)).not.toContain('count.glb');
+  });
+
+  it.skipIf(!hasBlender)('Blender shows the morph target as a shape key with the vertices of apply', () => {
+    const { max } = readJson('program.json').layers[0].parameter;
+    run('apply', 'chair.glb', 'program.json', '--morph', '-o', 'sliders.glb');
+    run('apply', 'chair.glb', 'program.json', '--set', `x1=${max}`, '-o', 'end.glb');
+    write('shape_key.py', blenderScript);
+    const said = execFileSync('blender', ['--background', '--factory-startup', '--python', 'shape_key.py'], {
+      cwd: folder,
+      encoding: 'utf8',
+    });
+    const [, keys, worst] = /shape keys (\d+), worst (\S+)/.exec(said) ?? [];
+    expect(Number(keys)).toBeGreaterThan(0);
+    expect(Number(worst)).toBeLessThan(1e-4);
   });
 
   it('read says what a plain request means, and when it is not sure what may be meant', () => {

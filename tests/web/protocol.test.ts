@@ -62,6 +62,9 @@ describe('the boundary between the page and the core', () => {
     const atRest = invoke('apply', { program, values: [0] });
     v.parse(methodSchemas.apply.result, (atRest.message as { result: unknown }).result);
     expect(Buffer.from(atRest.buffers[0] as Uint8Array).equals(Buffer.from(file))).toBe(true);
+    const morphed = invoke('apply', { program, values: [0], morph: true });
+    const { sliders } = v.parse(methodSchemas.apply.result, (morphed.message as { result: unknown }).result);
+    expect(sliders?.[0]?.targets.length).toBeGreaterThan(0);
     const edited = invoke('apply', { program, values: [0.1] });
     expect(Buffer.from(edited.buffers[0] as Uint8Array).equals(Buffer.from(file))).toBe(false);
   });

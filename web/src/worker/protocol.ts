@@ -126,15 +126,31 @@ export const methodSchemas = {
     parameters: v.strictObject({ edit: v.unknown() }),
     result: v.strictObject({ program: v.unknown(), trace: v.unknown() }),
   },
-  /** The opened model with a program applied: one buffer, a GLB. */
+  /** The opened model with a program applied: one buffer, a GLB; with an animation, or a morph target a slider. */
   apply: {
     parameters: v.strictObject({
       program: v.unknown(),
       values: v.array(v.number()),
       animate: v.optional(v.string()),
+      morph: v.optional(v.boolean()),
       only: v.optional(v.array(v.string())),
     }),
-    result: v.strictObject({ warnings: v.array(v.strictObject({ place: v.string(), text: v.string() })) }),
+    result: v.strictObject({
+      warnings: v.array(v.strictObject({ place: v.string(), text: v.string() })),
+      /** With morph: what the sliders are called in the file, and how exact they are. */
+      sliders: v.optional(
+        v.array(
+          v.strictObject({
+            parameter: v.string(),
+            targets: v.array(v.string()),
+            linear: v.boolean(),
+            error_m: v.number(),
+            ends_error_m: v.number(),
+          }),
+        ),
+      ),
+      together: v.optional(v.strictObject({ targets: v.array(v.string()), error_m: v.number() })),
+    }),
   },
   /** Every model of the gallery: entries of gallery.json, and one GLB each as buffers. */
   gallery: {
