@@ -55,7 +55,7 @@ void Storage::count_references(const nlohmann::json& json) {
     for (const auto& [key, value] : json.items()) {
       const bool names_view = key == "bufferView" && value.is_number_unsigned();
       const auto view = names_view ? value.get<std::uint64_t>() : references_.size();
-      if (view < references_.size()) ++references_[view];
+      if (view < references_.size()) ++references_[static_cast<std::size_t>(view)];
       count_references(value);
     }
   }

@@ -27,7 +27,7 @@ TEST_CASE("morph: nodes share a mesh as long as they move alike") {
                                        model.shape);
     const ordered_json json = json_of(morphed(model.glb.bytes(), model.shape, program, {0}).applied.glb);
     CHECK(json["meshes"].size() == 1);
-    CHECK(json["meshes"][0]["weights"] == ordered_json({0}));
+    CHECK(json["meshes"][0]["weights"] == ordered_json::array({0}));
   }
   SUBCASE("one stays, one is turned") {
     const Program program = program_of(first + "  translate(\"part_0\"" + to_the_side +

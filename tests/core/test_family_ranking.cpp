@@ -51,9 +51,9 @@ TEST_CASE("ranking: the paper's selection on hand-made variations, by both cut-o
     CHECK(nlohmann::json{mean.constraints, mean.dimensions} == wanted["mean_shift_of_loss"]);
     CHECK(nlohmann::json{slope.constraints, slope.dimensions} == wanted["mean_shift_of_derivative"]);
     // Up to the constraints that all variations share nothing is lost.
-    const std::size_t exact = one.expected["votes"][0]["exact"]["independent"];
-    CHECK(ranking.losses[exact - 1] < 1e-9);
-    CHECK(ranking.losses[exact] > 1e-3);
+    const std::size_t by_exact_test = one.expected["votes"][0]["exact"]["independent"];
+    CHECK(ranking.losses[by_exact_test - 1] < 1e-9);
+    CHECK(ranking.losses[by_exact_test] > 1e-3);
   }
 }
 

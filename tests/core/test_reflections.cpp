@@ -122,10 +122,10 @@ TEST_CASE("with growing disorder fewer parts of a chair are tied by symmetry, wi
     for (int step = 0; step < steps; ++step) {
       Random random(static_cast<std::uint64_t>(direction));
       auto parts = fixture::slat_chair(5);
-      const double noise = 0.02 * step / (steps - 1) * 0.6;  // the chair's half diagonal is about 0.6
+      const double jitter = 0.02 * step / (steps - 1) * 0.6;  // the chair's half diagonal is about 0.6
       for (Named& part : parts) {
         Vec3 by;
-        for (int axis = 0; axis < 3; ++axis) by[axis] = random.uniform(-noise, noise);
+        for (int axis = 0; axis < 3; ++axis) by[axis] = random.uniform(-jitter, jitter);
         move(part.mesh, by);
       }
       mean[static_cast<std::size_t>(step)] += static_cast<double>(tied_parts(fixture::shape(parts))) / directions;
