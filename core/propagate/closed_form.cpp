@@ -23,6 +23,22 @@ double largest_difference(const Samples& a, const Samples& b) {
 /// Amounts that agree to this are the same closed form; the fit itself is good to about 1e-12.
 constexpr double same = 1e-7;
 
+/// Terms and factors of a sum that may still become an amount: about what fits in longest_amount. With 1,000, chains of
+/// turned parts are simplified for seconds, in vain.
+constexpr int most_terms = 250;
+
+/// Counts an expression's nodes down from `left`; stops below 0.
+void count_down(const ex& expression, int& left) {
+  --left;
+  for (std::size_t i = 0; i < expression.nops() && left >= 0; ++i) count_down(expression.op(i), left);
+}
+
+bool is_large(const ex& expression) {
+  int left = most_terms;
+  count_down(expression, left);
+  return left < 0;
+}
+
 }  // namespace
 
 std::vector<ClosedForm> driving_amounts(const std::vector<PointConstraint>& constraints, const Edits& edits) {
@@ -200,6 +216,7 @@ std::optional<ClosedForm> AmountSolver::from_all_points(const Candidate& candida
       const double coefficient = v[static_cast<int>(c)];
       if (std::abs(coefficient) > noise) sum += number(coefficient) * goals_(constraint, edits_, c);
     }
+    if (is_large(sum)) return std::nullopt;
   }
   const auto values = sampled(sum, parameter_, at_);
   if (!values) return std::nullopt;
