@@ -4,7 +4,7 @@ import { zipSync } from 'fflate';
 import type { Page } from 'playwright-core';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
-import { download, openPage, pick, saved, useSite, withoutGallery } from './harness';
+import { download, drop, openPage, pick, saved, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -57,21 +57,6 @@ const pyramid = (name: string, x: number) => {
 };
 const pyramids = Buffer.from(pyramid('near', 0) + pyramid('far', 200));
 
-/** Drops files as a person does: with the events that the page listens to. */
-async function drop(files: Record<string, Buffer>): Promise<void> {
-  const plain = Object.entries(files).map(([name, buffer]) => [name, buffer.toString('base64')] as const);
-  await page.evaluate((list) => {
-    const transfer = new DataTransfer();
-    for (const [name, base64] of list) {
-      const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-      transfer.items.add(new File([bytes], name));
-    }
-    for (const type of ['dragover', 'drop']) {
-      document.body.dispatchEvent(new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }));
-    }
-  }, plain);
-}
-
 const file = (name: string, buffer: Buffer) => ({ name, mimeType: 'application/octet-stream', buffer });
 const labels = () => page.evaluate(() => parsel.document().model?.shape.parts.map(({ label }) => label) ?? []);
 const hash = () => page.evaluate(() => parsel.document().model?.shape.sha256);
@@ -89,7 +74,7 @@ describe('a file of another format', () => {
   });
 
   it('OBJ: dropped with its materials and picture, exported as GLB with the picture as it was', async () => {
-    await drop(table);
+    await drop(page, table);
     await shown();
     expect(await labels()).toEqual(['top', 'leg']);
     expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('table');
@@ -103,7 +88,7 @@ describe('a file of another format', () => {
   });
 
   it('OBJ without its picture: opens, and says what is missing', async () => {
-    await drop({ 'table.obj': table['table.obj'], 'table.mtl': table['table.mtl'] });
+    await drop(page, { 'table.obj': table['table.obj'], 'table.mtl': table['table.mtl'] });
     await shown();
     await expect
       .poll(() => page.getByRole('status').first().textContent())
@@ -112,7 +97,7 @@ describe('a file of another format', () => {
   });
 
   it('STL: a part a solid, the same model when it is opened again, kept over a reload', async () => {
-    await drop({ 'two.stl': pyramids });
+    await drop(page, { 'two.stl': pyramids });
     await shown();
     expect(await labels()).toEqual(['near', 'far']);
     expect(await page.locator('.part').count()).toBe(2);
@@ -128,7 +113,7 @@ describe('a file of another format', () => {
     await page.context().close(); // another browser, which has nothing but the file and the work on it
     ({ page, complaints } = await openPage(site.browser, `${site.url}?debug`, {}, withoutGallery));
     await ready();
-    await drop({ 'two.parsel.json': work, 'two.stl': pyramids });
+    await drop(page, { 'two.parsel.json': work, 'two.stl': pyramids });
     await shown();
     expect(await hash()).toBe(first);
     await pick(page, [file('two.parsel.json', work), file('two.stl', Buffer.from(pyramid('near', 0)))]);
@@ -166,7 +151,7 @@ describe('a file of another format', () => {
   });
 
   it('is refused in a sentence when it cannot be opened, with the work at hand untouched', async () => {
-    await drop({ 'two.stl': pyramids });
+    await drop(page, { 'two.stl': pyramids });
     await shown();
     const cloud =
       'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n';
@@ -180,7 +165,7 @@ describe('a file of another format', () => {
 
   it('can be cancelled while it is read', async () => {
     await page.route('**/convert.worker*.js', () => {}); // never answers
-    await drop({ 'two.stl': pyramids });
+    await drop(page, { 'two.stl': pyramids });
     await expect.poll(() => page.getByRole('status').first().textContent()).toMatch(/Reading the model · reading STL/);
     await page.getByRole('button', { name: 'Cancel' }).click();
     await expect.poll(() => page.getByRole('status').first().textContent()).toBe('');

@@ -222,3 +222,18 @@ export async function stillPicture(page: Page): Promise<Buffer> {
   }
   throw new Error('the picture never came to rest');
 }
+
+/** Drops files as a person does: with the events that the page listens to. */
+export async function drop(page: Page, files: Record<string, Buffer>): Promise<void> {
+  const plain = Object.entries(files).map(([name, buffer]) => [name, buffer.toString('base64')] as const);
+  await page.evaluate((list) => {
+    const transfer = new DataTransfer();
+    for (const [name, base64] of list) {
+      const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+      transfer.items.add(new File([bytes], name));
+    }
+    for (const type of ['dragover', 'drop']) {
+      document.body.dispatchEvent(new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    }
+  }, plain);
+}

@@ -9,7 +9,7 @@ import { beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { compress } from '../web/compressed';
 import { type Gltf, stool, stoolGltf, toGlb } from './fixture';
-import { openModel, openPage, pick, useSite, withGalleryOf, withoutGallery } from './harness';
+import { drop, openModel, openPage, pick, useSite, withGalleryOf, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -25,21 +25,6 @@ const parts = () => page.evaluate(() => parsel.document().model?.shape.parts.len
 function split({ json, binary }: Gltf, uri: string): { text: Buffer; binary: Buffer } {
   const buffers = [{ byteLength: binary.length, uri }];
   return { text: Buffer.from(JSON.stringify({ ...json, buffers })), binary };
-}
-
-/** Drops files as a person does: with the events that the page listens to. */
-async function drop(files: Record<string, Buffer>): Promise<void> {
-  const plain = Object.entries(files).map(([name, buffer]) => [name, buffer.toString('base64')] as const);
-  await page.evaluate((list) => {
-    const transfer = new DataTransfer();
-    for (const [name, base64] of list) {
-      const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-      transfer.items.add(new File([bytes], name));
-    }
-    for (const type of ['dragover', 'drop']) {
-      document.body.dispatchEvent(new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }));
-    }
-  }, plain);
 }
 
 describe('opening', () => {
@@ -60,13 +45,13 @@ describe('opening', () => {
   });
 
   it('a .glb by a drop', async () => {
-    await drop({ 'stool.glb': stool });
+    await drop(page, { 'stool.glb': stool });
     await opened();
   });
 
   it('a .gltf with its buffer by a drop', async () => {
     const { text, binary } = split(stoolGltf(), 'stool.bin');
-    await drop({ 'stool.gltf': text, 'stool.bin': binary });
+    await drop(page, { 'stool.gltf': text, 'stool.bin': binary });
     await opened();
   });
 
