@@ -1,21 +1,15 @@
 // For everybody: axe finds nothing serious in either theme and on a phone, and the keyboard reaches everything.
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import type { AxeResults } from 'axe-core';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
+import { serious } from './axe';
 import { program, stool } from './fixture';
 import { openModel, outputFolder, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
 const site = useSite();
-declare const axe: { run(): Promise<AxeResults> };
-
-const require = createRequire(new URL('../../web/package.json', import.meta.url));
-const axeSource = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
 
 /** With a broken, a disabled and a sampled relation, so that all their colours are on the page. */
 async function prepared(options: Parameters<typeof openModel>[3]): Promise<{ page: Page; complaints: string[] }> {
@@ -36,17 +30,6 @@ async function prepared(options: Parameters<typeof openModel>[3]): Promise<{ pag
   });
   await watched.page.locator('.card').nth(2).waitFor();
   return watched;
-}
-
-async function serious(page: Page): Promise<string[]> {
-  await page.evaluate(axeSource);
-  const { violations } = await page.evaluate(() => axe.run());
-  return violations
-    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-    .map(
-      ({ id, nodes }) =>
-        `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join('; ')}`,
-    );
 }
 
 describe.each([

@@ -16,6 +16,7 @@ import {
 } from 'playwright-core';
 import { afterAll, beforeAll } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
+import { type ProviderServer, startProviders } from '../web/provider_server';
 
 export const dist = fileURLToPath(new URL('../../web/dist', import.meta.url));
 export const outputFolder = fileURLToPath(new URL('../output', import.meta.url));
@@ -54,6 +55,29 @@ export function useSite(): { readonly url: string; readonly browser: Browser } {
     get browser() {
       return started().browser;
     },
+  };
+}
+
+/** A server that speaks the providers' protocols, for all tests of a file. */
+export function useProviders(): Omit<ProviderServer, 'server'> {
+  let started: ProviderServer | undefined;
+  beforeAll(async () => {
+    started = await startProviders();
+  });
+  afterAll(() => {
+    started?.server.closeAllConnections();
+    started?.server.close();
+  });
+  const providers = () => {
+    if (started === undefined) throw new Error('the providers are used before they have started');
+    return started;
+  };
+  return {
+    get calls() {
+      return providers().calls;
+    },
+    base: (protocol) => providers().base(protocol),
+    behave: (behaviour) => providers().behave(behaviour),
   };
 }
 

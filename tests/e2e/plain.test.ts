@@ -1,36 +1,15 @@
 // Plain words without a key, and before a language model: read at once, shown, corrected, offered when not sure.
-import { readFileSync } from 'node:fs';
-import type { Server } from 'node:http';
-import { createRequire } from 'node:module';
-import type { AxeResults } from 'axe-core';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { Page } from 'playwright-core';
+import { describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
-import { type ProviderServer, startProviders } from '../web/provider_server';
+import { serious } from './axe';
 import { stool } from './fixture';
-import { launch, openModel, outputFolder, serve } from './harness';
+import { openModel, outputFolder, useProviders, useSite } from './harness';
 
 declare const parsel: DebugHandle;
-declare const axe: { run(): Promise<AxeResults> };
 
-const require = createRequire(new URL('../../web/package.json', import.meta.url));
-const axeSource = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
-
-let server: Server;
-let url: string;
-let browser: Browser;
-let providers: ProviderServer;
-beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-  providers = await startProviders();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-  providers?.server.closeAllConnections();
-  providers?.server.close();
-});
+const site = useSite();
+const providers = useProviders();
 
 const field = (page: Page) => page.getByLabel('What to change');
 const composer = (page: Page) => page.getByLabel('Request in words');
@@ -56,7 +35,7 @@ const seat = (page: Page, axis: number) =>
 
 describe('a model of one’s own, without a key', () => {
   it('follows a plain sentence at once, and says how it was read', async () => {
-    const { page, complaints } = await openModel(browser, url, stool);
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
     await say(page, 'make the seat wider');
     await composer(page).getByText('Understood:').waitFor();
     await composer(page).getByText('Read without a language model').waitFor();
@@ -70,7 +49,7 @@ describe('a model of one’s own, without a key', () => {
   });
 
   it('puts the slider where a size says', async () => {
-    const { page, complaints } = await openModel(browser, url, stool);
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
     const before = await seat(page, 0);
     await say(page, 'make the seat 3 cm wider');
     await composer(page).getByText('Understood:').waitFor();
@@ -81,7 +60,7 @@ describe('a model of one’s own, without a key', () => {
   });
 
   it('offers what may be meant, to be clicked', async () => {
-    const { page, complaints } = await openModel(browser, url, stool);
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
     await say(page, 'make the seat 10 wider');
     await composer(page)
       .getByText(/Not sure: it gives a number without a unit/)
@@ -100,7 +79,7 @@ describe('a model of one’s own, without a key', () => {
   });
 
   it('says what it does not understand, and what would', async () => {
-    const { page, complaints } = await openModel(browser, url, stool);
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
     await say(page, 'make it nicer');
     const alert = composer(page).getByRole('alert');
     await expect.poll(() => alert.textContent()).toMatch(/“nicer” is not understood.*enter a key/);
@@ -113,7 +92,7 @@ describe('a model of one’s own, without a key', () => {
   });
 
   it('can be corrected like any other reading', async () => {
-    const { page, complaints } = await openModel(browser, url, stool);
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
     await say(page, 'make the seat wider');
     await composer(page).getByText('Understood:').click();
     await composer(page).getByText('Correct the edit').click();
@@ -129,7 +108,7 @@ describe('a model of one’s own, without a key', () => {
 
 describe('with a key', () => {
   it('what is sure costs nothing, and a language model can be asked instead', async () => {
-    const { page, complaints } = await openModel(browser, url, stool);
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
     await page.getByRole('button', { name: /^Language model/ }).click();
     await page.getByLabel('Provider').selectOption('openai');
     await page.getByLabel('Base URL').fill(providers.base('openai'));
@@ -170,14 +149,11 @@ describe.each([
   ['dark', { width: 820, height: 1180 }],
 ] as const)('in the %s, %o', (colorScheme, viewport) => {
   it('axe finds nothing serious when a request is read plainly, sure or not', async () => {
-    const { page } = await openModel(browser, url, stool, { colorScheme, viewport });
+    const { page } = await openModel(site.browser, site.url, stool, { colorScheme, viewport });
     const found: string[] = [];
     const look = async (name: string) => {
       await page.waitForTimeout(300);
-      await page.evaluate(axeSource);
-      const { violations } = await page.evaluate(() => axe.run());
-      const serious = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
-      found.push(...serious.map(({ id, nodes }) => `${name}: ${id}: ${nodes.map(({ target }) => target).join()}`));
+      found.push(...(await serious(page)).map((text) => `${name}: ${text}`));
       await page.screenshot({ path: `${outputFolder}/plain-${name}-${colorScheme}-${viewport.width}.png` });
     };
     await say(page, 'make the seat 10 wider');

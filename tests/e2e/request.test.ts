@@ -1,11 +1,7 @@
 // From words to a moving slider: with replies that a test wrote in place of the recorded ones, and with a server that
 // speaks the providers' protocols from another origin, under the page's policy.
-import { readFileSync } from 'node:fs';
-import type { Server } from 'node:http';
-import { createRequire } from 'node:module';
-import type { AxeResults } from 'axe-core';
-import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { BrowserContextOptions, Page } from 'playwright-core';
+import { describe, expect, it } from 'vitest';
 import type { Protocol } from '../../web/src/llm/providers';
 import type { Recordings } from '../../web/src/llm/recordings';
 import type { Statement } from '../../web/src/program/types';
@@ -13,31 +9,15 @@ import type { DebugHandle } from '../../web/src/ui/debug';
 import type { Task } from '../../web/src/worker/protocol';
 import { renderRequests } from '../../web/tools/prompts.mjs';
 import { loadModule } from '../web/module';
-import { type Behaviour, type ProviderServer, type ReceivedCall, startProviders } from '../web/provider_server';
+import type { Behaviour, ReceivedCall } from '../web/provider_server';
+import { serious } from './axe';
 import { stool } from './fixture';
-import { launch, openModel, openPage, outputFolder, pick, serve } from './harness';
+import { openModel, openPage, outputFolder, pick, useProviders, useSite } from './harness';
 
 declare const parsel: DebugHandle;
-declare const axe: { run(): Promise<AxeResults> };
 
-const require = createRequire(new URL('../../web/package.json', import.meta.url));
-const axeSource = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
-
-let server: Server;
-let url: string;
-let browser: Browser;
-let providers: ProviderServer;
-beforeAll(async () => {
-  ({ url, server } = await serve());
-  browser = await launch();
-  providers = await startProviders();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-  providers?.server.closeAllConnections();
-  providers?.server.close();
-});
+const site = useSite();
+const providers = useProviders();
 
 const reply = (answer: unknown) => `Somebody at a desk wrote this.\n\n\`\`\`json\n${JSON.stringify(answer)}\n\`\`\`\n`;
 const widenSeat = {
@@ -50,17 +30,6 @@ const noHints = { hints: {} };
 const field = (page: Page) => page.getByLabel('What to change');
 const composer = (page: Page) => page.getByLabel('Request in words');
 const layers = (page: Page) => page.evaluate(() => parsel.document().layers.map(({ layer }) => layer.request));
-
-async function serious(page: Page): Promise<string[]> {
-  await page.evaluate(axeSource);
-  const { violations } = await page.evaluate(() => axe.run());
-  return violations
-    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-    .map(
-      ({ id, nodes }) =>
-        `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join('; ')}`,
-    );
-}
 
 describe('without a key', () => {
   /** recordings/chair.json as web/tools/recordings.mjs would write it, with replies by hand. */
@@ -88,7 +57,7 @@ describe('without a key', () => {
 
   async function openChair() {
     const recorded = await recordings();
-    const watched = await openPage(browser, `${url}?debug`, {}, (context) =>
+    const watched = await openPage(site.browser, `${site.url}?debug`, {}, (context) =>
       context.route('**/recordings/chair.json', (route) => route.fulfill({ json: recorded })),
     );
     const { page } = watched;
@@ -147,7 +116,7 @@ describe('without a key', () => {
 
 /** Opens the stool and enters a provider as a person does. */
 async function ready(protocol: Protocol, { votes = 3, ...options }: BrowserContextOptions & { votes?: number } = {}) {
-  const watched = await openModel(browser, url, stool, options);
+  const watched = await openModel(site.browser, site.url, stool, options);
   const { page } = watched;
   await page.getByRole('button', { name: /^Language model/ }).click();
   await page.getByLabel('Provider').selectOption(protocol);
@@ -351,7 +320,7 @@ describe('what goes wrong', () => {
   });
 
   it('a missing key and an address that the policy forbids are said before anything is sent', async () => {
-    const { page, complaints } = await openModel(browser, url, stool);
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
     await page.getByRole('button', { name: /^Language model/ }).click();
     await page.getByLabel('Provider').selectOption('openai');
     await page.getByLabel('Model', { exact: true }).fill('m');
@@ -411,7 +380,7 @@ describe('what goes wrong', () => {
   });
 
   it('Shift+Enter makes a line, Enter alone in an empty field does nothing', async () => {
-    const { page } = await openModel(browser, url, stool);
+    const { page } = await openModel(site.browser, site.url, stool);
     await field(page).press('Enter');
     await field(page).pressSequentially('a');
     await field(page).press('Shift+Enter');

@@ -3,11 +3,9 @@
 import { existsSync } from 'node:fs';
 import { copyFile, mkdir, mkdtemp, readFile, rm, symlink, writeFile } from 'node:fs/promises';
 import type { Server } from 'node:http';
-import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import type { AxeResults } from 'axe-core';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { compile, embedProgram, loadProgram } from '../../web/runtime/src/index';
@@ -16,14 +14,13 @@ import { slidersOf } from '../../web/src/program/sliders';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { call, loadModule } from '../web/module';
+import { serious } from './axe';
 import { program, stool } from './fixture';
 import { download, launch, openModel, openPage, saved, serve, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
-declare const axe: { run(): Promise<AxeResults> };
 
 const web = fileURLToPath(new URL('../../web', import.meta.url));
-const require = createRequire(join(web, 'package.json'));
 /** Nothing but the site's own files, no text as code or markup. */
 const policy =
   "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self'; " +
@@ -141,14 +138,6 @@ const example = (path: string, options = {}) =>
 const viewer = (page: Page) => page.locator('parsel-viewer');
 const values = (page: Page) => viewer(page).evaluate((element) => (element as unknown as ParselViewer).values);
 const ready = (page: Page) => page.getByRole('slider').first().waitFor();
-
-async function serious(page: Page): Promise<string[]> {
-  await page.evaluate(await readFile(require.resolve('axe-core/axe.min.js'), 'utf8'));
-  const { violations } = await page.evaluate(() => axe.run());
-  return violations
-    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-    .map(({ id, nodes }) => `${id}: ${nodes.map(({ failureSummary }) => failureSummary).join('; ')}`);
-}
 
 describe('the first example', () => {
   it('shows a model with the sliders that are in it', async () => {
