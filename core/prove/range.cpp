@@ -256,12 +256,13 @@ Range find_range(const Shape& shape, const Program& program, std::size_t layer, 
 }
 
 struct StackFailure::Implementation {
+  Implementation(const Shape& shape, const Program& program) : limits(shape, program, program.layers.size() - 1) {}
   Limits limits;
 };
 
 StackFailure::StackFailure(const Shape& shape, const Program& program) {
   PARSEL_ASSERT(!program.layers.empty(), "a stack has a layer");
-  implementation_ = std::make_shared<const Implementation>(Limits(shape, program, program.layers.size() - 1));
+  implementation_ = std::make_shared<const Implementation>(shape, program);
 }
 
 std::string StackFailure::operator()(const std::vector<double>& values) const {
