@@ -14,6 +14,7 @@
 #include "core/infer/prompt.h"
 #include "core/propagate/propagate.h"
 #include "core/propagate/solve.h"
+#include "core/prove/together.h"
 #include "core/shape/abstraction.h"
 
 namespace parsel::wasm {
@@ -163,6 +164,21 @@ Result<Output> apply(const Input& input) {
   return Output{std::move(result), {std::move(out.glb)}};
 }
 
+/// program: parsel/program v1; count; seed: a number that a double holds exactly.
+Result<Output> siblings(const Input& input) {
+  if (!model) return no_model();
+  const Result<Program> program = program_from_json(input.parameters.value("program", json()));
+  if (!program.ok()) return program.error();
+  if (const Status valid = validate(*program, model->shape); !valid.ok()) return valid.error();
+  const json count = input.parameters.value("count", json()), seed = input.parameters.value("seed", json());
+  if (!count.is_number_integer()) return wrong_parameter("count", "a whole number");
+  if (!seed.is_number_unsigned()) return wrong_parameter("seed", "a whole number");
+  const auto wanted = static_cast<int>(std::clamp<std::int64_t>(count.get<std::int64_t>(), 0, most_siblings + 1));
+  const Result<Siblings> drawn = draw_siblings(model->shape, *program, wanted, seed.get<std::uint64_t>());
+  if (!drawn.ok()) return drawn.error();
+  return Output{to_json(*drawn), {}};
+}
+
 /// Every model of the gallery: one buffer each, in the order of the list.
 Result<Output> gallery(const Input&) {
   Output output{{{"models", json::array()}}, {}};
@@ -208,9 +224,35 @@ Result<Output> prompts(const Input& input) {
   json list = json::array(), tasks = json::object();
   for (const Prompt& prompt : *made) list.push_back(to_json(model->shape, prompt));
   for (const Task* task : all_tasks()) {
+    if (task->proposals > 0) continue;
     tasks[std::string(task->name)] = {{"words", task->words}, {"schema", reply_schema(*task)}};
   }
   return Output{{{"prompts", std::move(list)}, {"tasks", std::move(tasks)}}, {}};
+}
+
+/// task: the name of one that proposes requests; request (empty for a task about the model alone) and mentioned as in
+/// wish_of(); count; picture: whether one goes along.
+Result<Output> proposal_prompt(const Input& input) {
+  if (!model) return no_model();
+  const Result<std::string> name = text_parameter(input, "task");
+  if (!name.ok()) return name.error();
+  const Task* task = find_task(*name);
+  if (task == nullptr || task->proposals == 0) return wrong_parameter("task", "a task that proposes requests");
+  Result<EditWish> wish = wish_of(input);
+  if (!wish.ok()) return wish.error();
+  const json count = input.parameters.value("count", json()), picture = input.parameters.value("picture", json());
+  if (!count.is_number_integer() || !picture.is_boolean()) return wrong_parameter("count", "a whole number");
+  wish->count = static_cast<int>(std::clamp<std::int64_t>(count.get<std::int64_t>(), 0, most_proposals + 1));
+  wish->picture = picture.get<bool>();
+  const Result<Prompt> made = make_prompt(model->shape, *wish, *task);
+  if (!made.ok()) return made.error();
+  json numbered = json::array();
+  for (const PartIndex part : numbered_parts(model->shape)) numbered.push_back(model->shape.parts[part].id);
+  return Output{{{"prompt", to_json(model->shape, *made)},
+                 {"words", task->words},
+                 {"schema", reply_schema(*task)},
+                 {"numbered", std::move(numbered)}},
+                {}};
 }
 
 /// replies: for each prompt the texts that the language model gave.
@@ -255,9 +297,11 @@ constexpr std::array all_methods = {
     Method{"open", open},
     Method{"propagate", propagate_edit},
     Method{"apply", apply},
+    Method{"siblings", siblings},
     Method{"gallery", gallery},
     Method{"read_plainly", read_wish_plainly},
     Method{"prompts", prompts},
+    Method{"proposal_prompt", proposal_prompt},
     Method{"read_replies", read_replies},
     Method{"memory", memory},
     Method{"fail", fail},

@@ -1,4 +1,5 @@
 // parsel prompt: what a language model is asked about a model and a request.
+#include <charconv>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -29,11 +30,21 @@ int write_all(const Arguments& arguments, const Shape& shape, const EditWish& wi
 
 int run(const Arguments& arguments) {
   if (arguments.positional.size() != 1) return misuse("prompt takes one model");
-  if (!arguments.has("--request")) return misuse("prompt needs --request, such as --request \"widen the chair\"");
   if (arguments.has("--all") == arguments.has("--task")) return misuse("prompt takes either --task or --all");
+  const Task* task = find_task(arguments.option("--task"));
+  if (!arguments.has("--request") && (task == nullptr || task->about_request)) {
+    return misuse("prompt needs --request, such as --request \"widen the chair\"");
+  }
+  int count = 0;
+  if (const std::string given = arguments.option("--count", "0"); arguments.has("--count")) {
+    const auto [end, fault] = std::from_chars(given.data(), given.data() + given.size(), count);
+    if (fault != std::errc() || end != given.data() + given.size() || count < 1) {
+      return misuse("--count takes a whole number from 1");
+    }
+  }
   const Result<Shape> shape = read_shape(arguments.positional[0]);
   if (!shape.ok()) return refuse(shape.error());
-  EditWish wish{arguments.option("--request"), {}};
+  EditWish wish{arguments.option("--request"), {}, count, arguments.has("--picture")};
   const auto [first, last] = arguments.options.equal_range("--mention");
   for (auto mention = first; mention != last; ++mention) wish.mentioned.push_back(mention->second);
   if (arguments.has("--all")) return write_all(arguments, *shape, wish);
@@ -55,10 +66,12 @@ int run(const Arguments& arguments) {
 extern const Command prompt_command;
 const Command prompt_command = {
     "prompt",
-    "MODEL.glb|SHAPE.json --request TEXT (--task TASK [--relation ID] [-o PROMPT.md] | --all DIR) [--mention PART]…",
-    "Prints what a language model is asked (--all: every prompt of the request as DIR/<hash>.md).",
-    {"--request", "--task", "--relation", "--mention", "--all", "-o"},
-    {},
+    "MODEL.glb|SHAPE.json --request TEXT (--task TASK [--relation ID] [-o PROMPT.md] | --all DIR) [--mention PART]… "
+    "[--count N] [--picture]",
+    "Prints what a language model is asked (--all: every prompt that the request is read by, as DIR/<hash>.md). "
+    "procedural_requests takes no request; --count and --picture are for tasks that propose.",
+    {"--request", "--task", "--relation", "--mention", "--all", "--count", "-o"},
+    {"--picture"},
     run};
 
 }  // namespace parsel::cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/infer/edit_assembly.h"
+#include "core/infer/proposals.h"
 #include "core/infer/seed_edit.h"
 
 namespace parsel {
@@ -31,6 +32,7 @@ struct Inference {
   SeedVote seed;
   std::vector<HintVote> hints;
   std::vector<RelationVote> relations;
+  Proposals proposals;
   std::vector<RefusedReply> refused;
   std::optional<EditRequest> edit;  ///< of the first reading; nothing when there is none
 };
@@ -41,7 +43,8 @@ Inference infer(const Shape& shape, const std::vector<Replies>& replies);
 Result<std::vector<Replies>> replies_from_json(const Shape& shape, const nlohmann::json& json);
 
 /// {"seed": {"outcome", "readings": [{"statements", "words", "votes"}], "of", "reason"}, "hints": [{"part", "hint",
-/// "votes", "of"}], "relations": [{"relation", "keep", "votes", "of", "words"}], "refused": [{"task", "relation",
+/// "votes", "of"}], "relations": [{"relation", "keep", "votes", "of", "words"}], "proposals": {"requests":
+/// [{"request", "changes": [ids], "keeps": [ids]}], "dropped": [{"request", "reason"}]}, "refused": [{"task", "relation",
 /// "vote", "error"}], "edit": parsel/edit v1 or null}
 nlohmann::json to_json(const Shape& shape, const Inference& inference);
 

@@ -6,6 +6,7 @@
 #include "core/base/sha256.h"
 #include "core/base/text.h"
 #include "core/edit/program_fields.h"
+#include "core/infer/proposals.h"
 #include "core/infer/prompt_texts.h"
 #include "core/shape/words.h"
 
@@ -68,10 +69,36 @@ Status check(const EditWish& wish) {
   return success();
 }
 
-}  // namespace
+Status check(const EditWish& wish, const Task& task) {
+  if (task.about_request) {
+    if (const Status checked = check(wish); !checked.ok()) return checked;
+  } else if (!wish.request.empty()) {
+    return Error{stage, "request", "the task " + std::string(task.name) + " is about the model alone",
+                 "leave the request out"};
+  }
+  if (task.proposals == 0 && (wish.count != 0 || wish.picture)) {
+    return Error{stage, wish.picture ? "picture" : "count", "the task " + std::string(task.name) + " proposes nothing",
+                 "leave count and picture out"};
+  }
+  if (wish.count < 0 || wish.count > most_proposals) {
+    return Error{stage, "count", "it is not from 1 to " + std::to_string(most_proposals),
+                 "ask for " + std::to_string(task.proposals)};
+  }
+  return success();
+}
 
-Result<std::vector<PartIndex>> check_wish(const Shape& shape, const EditWish& wish) {
-  if (const Status checked = check(wish); !checked.ok()) return checked.error();
+/// A paragraph.
+std::string picture_words(const Shape& shape) {
+  std::string text = "The picture shows the model from its front, its left side and above, with numbers on its parts: ";
+  int number = 0;
+  for (const PartIndex part : numbered_parts(shape)) {
+    text += (number == 0 ? "" : ", ") + std::to_string(number + 1) + " " + shape.parts[part].id;
+    ++number;
+  }
+  return text + ".\n";
+}
+
+Result<std::vector<PartIndex>> mentioned_parts(const Shape& shape, const EditWish& wish) {
   std::vector<PartIndex> mentioned;
   for (const std::string& id : wish.mentioned) {
     const auto part = shape.find_part(id);
@@ -81,8 +108,19 @@ Result<std::vector<PartIndex>> check_wish(const Shape& shape, const EditWish& wi
   return mentioned;
 }
 
-Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task& task, AboutRelation relation) {
+}  // namespace
+
+Result<std::vector<PartIndex>> check_wish(const Shape& shape, const EditWish& wish) {
   if (const Status checked = check(wish); !checked.ok()) return checked.error();
+  return mentioned_parts(shape, wish);
+}
+
+std::vector<PartIndex> numbered_parts(const Shape& shape) {
+  return active_parts(shape);
+}
+
+Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task& task, AboutRelation relation) {
+  if (const Status checked = check(wish, task); !checked.ok()) return checked.error();
   if (relation && (!task.asks_about || !task.asks_about(shape.relations[*relation].kind))) {
     return Error{stage, shape.relations[*relation].id,
                  "the task " + std::string(task.name) + " does not ask about this relation",
@@ -92,7 +130,7 @@ Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task&
     return Error{stage, "relation", "the task " + std::string(task.name) + " asks about one relation",
                  "name a relation, such as r1 or t1"};
   }
-  const Result<std::vector<PartIndex>> parts = check_wish(shape, wish);
+  const Result<std::vector<PartIndex>> parts = mentioned_parts(shape, wish);
   if (!parts.ok()) return parts.error();
   std::string mentioned;
   for (const PartIndex part : *parts) mentioned += (mentioned.empty() ? "" : ", ") + shape.parts[part].id;
@@ -100,7 +138,9 @@ Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task&
   Prompt prompt{&task, relation, {}, {}, std::string(from.version)};
   Places places = {{"shape", describe(shape)},
                    {"request", quoted_request(wish.request)},
-                   {"mentioned", mentioned.empty() ? "none" : mentioned}};
+                   {"mentioned", mentioned.empty() ? "none" : mentioned},
+                   {"count", std::to_string(wish.count == 0 ? task.proposals : wish.count)},
+                   {"picture", wish.picture ? picture_words(shape) : ""}};
   if (task.places) places.merge(task.places(shape, relation));
   prompt.text = fill(from.text, places);
   prompt.hash = sha256_hex(prompt.text);
@@ -116,7 +156,7 @@ Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wis
     return success();
   };
   for (const Task* task : all_tasks()) {
-    if (task->asks_about) continue;
+    if (task->asks_about || task->proposals > 0) continue;
     if (const Status s = add(task, {}); !s.ok()) return s.error();
   }
   for (const RelationIndex r : active_relations(shape)) {

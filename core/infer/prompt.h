@@ -19,7 +19,12 @@ namespace parsel {
 struct EditWish {
   std::string request;                 ///< in words: UTF-8, not blank, at most ProgramLimits::request_bytes
   std::vector<std::string> mentioned;  ///< ids of the parts that the person pointed at
+  int count = 0;                       ///< how many proposals, 1 to most_proposals; 0: as many as the task says
+  bool picture = false;                ///< of the model, with numbers on its parts, goes along with the prompt
 };
+
+/// What stands under the number i + 1 in the picture that goes along with a prompt: the active parts.
+std::vector<PartIndex> numbered_parts(const Shape& shape);
 
 /// The parts that a wish mentions; or why it cannot be asked: blank, too long, or about parts that are not there.
 Result<std::vector<PartIndex>> check_wish(const Shape& shape, const EditWish& wish);
@@ -32,10 +37,11 @@ struct Prompt {
   std::string version;  ///< of the template
 };
 
-/// `relation` is needed by the tasks that ask about one, of the kind that they ask about, and refused by the others.
+/// `relation` is needed by the tasks that ask about one, of the kind that they ask about, and refused by the others; so is
+/// the wish's request. A count and a picture are for the tasks that propose.
 Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task& task, AboutRelation relation = {});
 
-/// Every prompt of a request: those about the whole of it, then one for each active relation that a task asks about
+/// Every prompt that a request is read by: those about the whole of it, then one for each active relation that a task asks about
 /// (all groups standing).
 Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wish);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/infer/proposals.h"
 #include "core/infer/relation_validity.h"
 #include "core/infer/seed_edit.h"
 #include "core/infer/type_hints.h"
@@ -10,8 +11,12 @@
 namespace parsel {
 
 std::span<const Task* const> all_tasks() {
-  static constexpr std::array all = {&seed_edit_task, &type_hints_task, &relation_validity_reflection_task,
-                                     &relation_validity_group_task};
+  static constexpr std::array all = {&seed_edit_task,
+                                     &type_hints_task,
+                                     &relation_validity_reflection_task,
+                                     &relation_validity_group_task,
+                                     &procedural_requests_task,
+                                     &request_variations_task};
   return all;
 }
 

@@ -37,6 +37,10 @@ struct Task {
   void (*vote)(const Shape& shape, AboutRelation relation, const std::vector<Meaning>& meanings, Inference& inference);
   /// Writes that member as JSON; the tasks of one member write the same.
   void (*write)(const Shape& shape, const Inference& inference, nlohmann::json& json);
+  /// How many requests its reply proposes unless the wish says; 0 for the tasks that every request is read by. One that
+  /// proposes is asked on its own.
+  int proposals = 0;
+  bool about_request = true;  ///< false: about the model alone, without a request
 };
 
 /// Every task, in the order in which they are asked.

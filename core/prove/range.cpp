@@ -9,6 +9,7 @@
 #include "core/edit/evaluate.h"
 #include "core/prove/enclosure.h"
 #include "core/prove/scope.h"
+#include "core/prove/stack_failure.h"
 
 namespace parsel {
 
@@ -74,12 +75,16 @@ class Limits {
   /// What goes wrong at x; empty when nothing does.
   std::string failure(double x) {
     values_[layer_] = x;
+    return failure_at(values_);
+  }
+
+  std::string failure_at(const std::vector<double>& values) const {
     for (std::size_t i = 0; i < amounts_.size(); ++i) {
-      const double amount = amounts_[i](values_.data());
+      const double amount = amounts_[i](values.data());
       if (std::isnan(amount)) return "the amount of " + targets_[i] + " would be undefined";
       if (!(std::abs(amount) < largest_amount)) return "the amount of " + targets_[i] + " would be too large";
     }
-    const State state = evaluator_(values_);
+    const State state = evaluator_(values);
     for (const PartIndex p : shape_.parts.indices()) {
       if (edited_.count(p) == 0 || !is_active(shape_, p, dissolved_)) continue;
       const Part& part = shape_.parts[p];
@@ -248,6 +253,20 @@ Range find_range(const Shape& shape, const Program& program, std::size_t layer, 
   const End low = refine(limits, search(limits, -limit), limit);
   const End high = refine(limits, search(limits, limit), limit);
   return {low.x, high.x, low.reason, high.reason};
+}
+
+struct StackFailure::Implementation {
+  Implementation(const Shape& shape, const Program& program) : limits(shape, program, program.layers.size() - 1) {}
+  Limits limits;
+};
+
+StackFailure::StackFailure(const Shape& shape, const Program& program) {
+  PARSEL_ASSERT(!program.layers.empty(), "a stack has a layer");
+  implementation_ = std::make_shared<const Implementation>(shape, program);
+}
+
+std::string StackFailure::operator()(const std::vector<double>& values) const {
+  return implementation_->limits.failure_at(values);
 }
 
 }  // namespace parsel

@@ -103,6 +103,13 @@ export function fakeCore(): FakeCore {
       prompts: [{ task: 'seed_edit', relation: null, text: 'p', hash: 'h', version: '1' }],
       tasks: { seed_edit: { words: 'the edit', schema: {} } },
     }),
+    proposalPrompt: async (_, { task }) => ({
+      prompt: { task, relation: null, text: 'propose', hash: task, version: '1' },
+      words: 'sliders',
+      schema: {},
+      numbered: ['left', 'right'],
+    }),
+    siblings: async () => ({ siblings: [], rejected: 0, reasons: [] }),
     readPlainly: async () => core.plain,
     readReplies: async () => core.inference,
   };

@@ -6,8 +6,10 @@ import {
   compare,
   type Recording,
   type RenderedRequest,
+  readProposals,
   readRecordings,
   readRequests,
+  renderProposals,
   renderRequests,
 } from '../../web/tools/prompts.mjs';
 import { readReplies, variantPrompts, variants } from '../eval/variants.mjs';
@@ -27,7 +29,11 @@ beforeAll(async () => {
 
 describe('the recorded requests', () => {
   it('are whole and of today', () => {
-    const { missing, stale } = compare(renderRequests(core, readRequests()), readRecordings());
+    const recordings = readRecordings();
+    const { missing, stale } = compare(
+      [...renderRequests(core, readRequests()), ...renderProposals(core, readProposals(), recordings)],
+      recordings,
+    );
     expect(
       missing.map(({ model, request, prompt }) => `${model}: ${request}: ${prompt.task} ${prompt.relation}`),
     ).toEqual([]);

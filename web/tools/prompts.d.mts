@@ -5,7 +5,16 @@ export interface OfferedRequest {
   readonly request: string;
   readonly mentioned?: readonly string[];
   readonly suggest?: boolean;
+  /** That proposes, or has proposed, the request. */
+  readonly task?: string;
 }
+export interface OfferedProposals {
+  readonly model: string;
+  readonly task: string;
+  readonly request?: string;
+  readonly picture?: boolean;
+}
+type Core = (method: string, parameters: unknown, buffers?: Uint8Array[]) => { result: unknown; buffers: Uint8Array[] };
 export type RenderedRequest = OfferedRequest & MethodResult<'prompts'>;
 export interface Recording {
   readonly hash: string;
@@ -16,9 +25,12 @@ export interface Recording {
 }
 export function readRequests(): OfferedRequest[];
 export function readRecordings(folder?: string): Map<string, Recording>;
-export function renderRequests(
-  core: (method: string, parameters: unknown, buffers?: Uint8Array[]) => { result: unknown; buffers: Uint8Array[] },
-  requests: readonly OfferedRequest[],
+export function readProposals(): OfferedProposals[];
+export function renderRequests(core: Core, requests: readonly OfferedRequest[]): RenderedRequest[];
+export function renderProposals(
+  core: Core,
+  proposals: readonly OfferedProposals[],
+  recordings: ReadonlyMap<string, Recording>,
 ): RenderedRequest[];
 export function compare(
   rendered: readonly RenderedRequest[],

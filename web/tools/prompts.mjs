@@ -5,11 +5,21 @@ import { join } from 'node:path';
 import { root } from './core.mjs';
 
 const requestsFile = join(root, 'prompts', 'requests.json');
+const proposalsFile = join(root, 'prompts', 'proposals.json');
 const recordingsFolder = join(root, 'prompts', 'recordings');
 
 /** @returns [{model, request, mentioned, suggest}]; `suggest` false: answered when it is asked, but not offered */
 export function readRequests() {
   return existsSync(requestsFile) ? JSON.parse(readFileSync(requestsFile, 'utf8')) : [];
+}
+
+/**
+ * What is asked of tasks that propose requests.
+ * @returns [{model, task, request, picture}]; `request` is empty for a task about the model alone; `picture`: whether one
+ *   went along
+ */
+export function readProposals() {
+  return existsSync(proposalsFile) ? JSON.parse(readFileSync(proposalsFile, 'utf8')) : [];
 }
 
 /** @returns Map of hash → {hash, task, model, date, replies: [{vote, text}]} */
@@ -42,16 +52,57 @@ export function writeReplies({ hash, task }, model, replies, date = new Date().t
  * @returns [{model, request, mentioned, suggest, prompts: [{task, relation, text, hash}], tasks}]
  */
 export function renderRequests(core, requests) {
+  const open = opener(core);
+  return requests.map(({ model, request, mentioned = [], suggest = true }) => {
+    open(model);
+    return { model, request, mentioned, suggest, ...core('prompts', { request, mentioned }).result };
+  });
+}
+
+/** @returns a function that opens a model of the gallery in the core */
+function opener(core) {
   const { result, buffers } = core('gallery', {});
   let opened = null;
-  return requests.map(({ model, request, mentioned = [], suggest = true }) => {
+  return (model) => {
     const index = result.models.findIndex(({ id }) => id === model);
-    if (index < 0) throw new Error(`prompts/requests.json: the gallery has no model ${model}.`);
+    if (index < 0) throw new Error(`prompts: the gallery has no model ${model}.`);
     // Under the name that the page opens it by, which may stand in the prompts.
     const name = result.models[index].file.replace(/\.glb$/, '');
     if (opened !== model) core('open', { name, external: [] }, [buffers[index]]);
     opened = model;
-    return { model, request, mentioned, suggest, ...core('prompts', { request, mentioned }).result };
+  };
+}
+
+/**
+ * Renders the prompts that propose requests, and of every request that a recorded reply proposes its own, as far as
+ * the page asks it.
+ * @returns as renderRequests(), each with the task that it is of
+ */
+export function renderProposals(core, proposals, recordings) {
+  const open = opener(core);
+  return proposals.flatMap(({ model, task, request = '', picture = false }) => {
+    open(model);
+    const asked = { task, request, mentioned: [], count: 0, picture };
+    const { prompt, words, schema } = core('proposal_prompt', asked).result;
+    const own = {
+      model,
+      task,
+      request,
+      mentioned: [],
+      suggest: false,
+      prompts: [prompt],
+      tasks: { [task]: { words, schema } },
+    };
+    const texts = (recordings.get(prompt.hash)?.replies ?? []).map(({ text }) => text);
+    if (texts.length === 0) return [own];
+    const { proposals: found } = core('read_replies', { request, replies: [{ task, relation: null, texts }] }).result;
+    const proposed = found.requests.map((one) => {
+      const { prompts, tasks } = core('prompts', { request: one.request, mentioned: [] }).result;
+      // Which symmetries may go is not asked of proposals: see web/src/session/suggestions.ts.
+      const asked = prompts.filter(({ relation }) => relation === null);
+      return { model, task, request: one.request, mentioned: [], suggest: false, prompts: asked, tasks };
+    });
+    return [own, ...proposed];
   });
 }
 

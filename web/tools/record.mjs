@@ -1,4 +1,5 @@
-// Keeps prompts/recordings: which prompts of prompts/requests.json have no recorded reply, and recording them.
+// Keeps prompts/recordings: which prompts of prompts/requests.json and prompts/proposals.json, and of what is proposed,
+// have no recorded reply, and recording them. One that goes along with a picture is not asked here.
 //
 //   node web/tools/record.mjs                             lists what is recorded, missing and stale
 //   node web/tools/record.mjs --write DIR [--votes 5]     writes what is missing as DIR/<hash>.<vote>.prompt.md
@@ -12,7 +13,15 @@ import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { runnerImport } from 'vite';
 import { loadCore, root } from './core.mjs';
-import { compare, readRecordings, readRequests, renderRequests, writeReplies } from './prompts.mjs';
+import {
+  compare,
+  readProposals,
+  readRecordings,
+  readRequests,
+  renderProposals,
+  renderRequests,
+  writeReplies,
+} from './prompts.mjs';
 
 const text = { type: 'string' };
 const { values } = parseArgs({
@@ -36,8 +45,9 @@ function die(line) {
 if (!(votes >= 1 && votes <= 9)) die('--votes takes 1 to 9.');
 if ((values.read || values.provider) && !values.model) die('--model NAME says who answered.');
 
-const all = renderRequests(await loadCore(), readRequests());
+const core = await loadCore();
 const recordings = readRecordings();
+const all = [...renderRequests(core, readRequests()), ...renderProposals(core, readProposals(), recordings)];
 const { offered, open, missing, stale } = compare(all, recordings);
 const wanted = all.filter(({ model }) => values.only === undefined || model === values.only);
 
@@ -88,6 +98,7 @@ if (values.write) {
   const target = { provider, base: values.base ?? provider.base, model: values.model, key };
   const { signal } = new AbortController();
   for (const { model, request, prompt, schema, votes: free } of gaps()) {
+    if (/^The picture shows /m.test(prompt.text)) continue;
     const replies = await Promise.all(
       free.map(async (vote) => ({
         vote,

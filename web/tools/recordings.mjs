@@ -2,12 +2,15 @@
 import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { loadCore, root } from './core.mjs';
-import { compare, readRecordings, readRequests, renderRequests } from './prompts.mjs';
+import { compare, readProposals, readRecordings, readRequests, renderProposals, renderRequests } from './prompts.mjs';
 
 const folder = join(root, 'web', 'public', 'recordings');
 const core = await loadCore();
 const recordings = readRecordings();
-const { offered, missing } = compare(renderRequests(core, readRequests()), recordings);
+const { offered, missing } = compare(
+  [...renderRequests(core, readRequests()), ...renderProposals(core, readProposals(), recordings)],
+  recordings,
+);
 if (missing.length > 0)
   process.stderr.write(`${missing.length} prompts have no recording: node web/tools/record.mjs lists them.\n`);
 
@@ -20,7 +23,10 @@ for (const { id } of core('gallery', {}).result.models) {
   writeFileSync(
     join(folder, `${id}.json`),
     JSON.stringify({
-      requests: own.map(({ request, mentioned, suggest }) => ({ request, mentioned, suggest })),
+      // What is proposed is found by its prompts alone.
+      requests: own
+        .filter(({ task }) => task === undefined)
+        .map(({ request, mentioned, suggest }) => ({ request, mentioned, suggest })),
       replies: Object.fromEntries(used.map(({ hash, replies }) => [hash, replies.map(({ text }) => text)])),
       models: [...new Set(used.map((recording) => recording.model))],
     }),

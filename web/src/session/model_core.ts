@@ -3,7 +3,7 @@
 import type { Program, Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
 import type { CallOptions, CoreClient, CoreState } from '../worker/client';
-import type { Inference, MethodResult, PlainInference, Replies } from '../worker/protocol';
+import type { Inference, MethodResult, Parameters, PlainInference, Replies } from '../worker/protocol';
 import { type EditInput, type Labels, noLabels, type OpenModel } from './document';
 import type { Trace } from './trace';
 
@@ -39,6 +39,10 @@ export interface ModelCore {
   readPlainly(model: OpenModel, request: string, mentioned: readonly string[]): Promise<PlainInference>;
   /** What a language model is to be asked. `mentioned`: ids of parts that were pointed at. */
   prompts(model: OpenModel, request: string, mentioned: readonly string[]): Promise<MethodResult<'prompts'>>;
+  /** What a language model is asked for proposals; see `proposal_prompt` in protocol.ts. */
+  proposalPrompt(model: OpenModel, about: Parameters<'proposal_prompt'>): Promise<MethodResult<'proposal_prompt'>>;
+  /** Random settings of a program's sliders that are sound together; the same for the same seed. */
+  siblings(model: OpenModel, program: Program, count: number, seed: number): Promise<MethodResult<'siblings'>>;
   /** What its replies mean. */
   readReplies(model: OpenModel, request: string, replies: Replies[]): Promise<Inference>;
 }
@@ -77,6 +81,12 @@ export function modelCore(client: CoreClient): ModelCore {
     async prompts(model, request, mentioned) {
       const needs = stateOf(model);
       return (await client.call('prompts', { request, mentioned: [...mentioned] }, { needs })).result;
+    },
+    async proposalPrompt(model, about) {
+      return (await client.call('proposal_prompt', about, { needs: stateOf(model) })).result;
+    },
+    async siblings(model, program, count, seed) {
+      return (await client.call('siblings', { program, count, seed }, { needs: stateOf(model) })).result;
     },
     async readReplies(model, request, replies) {
       return (await client.call('read_replies', { request, replies }, { needs: stateOf(model) })).result;

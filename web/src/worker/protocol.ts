@@ -51,6 +51,15 @@ const inferenceSchema = v.looseObject({
   relations: v.array(
     v.strictObject({ relation: v.string(), keep: v.boolean(), votes: v.number(), of: v.number(), words: v.string() }),
   ),
+  /** What the tasks that propose requests say; what was dropped, with a clause why. */
+  proposals: v.optional(
+    v.strictObject({
+      requests: v.array(
+        v.strictObject({ request: v.string(), changes: v.array(v.string()), keeps: v.array(v.string()) }),
+      ),
+      dropped: v.array(v.strictObject({ request: v.string(), reason: v.string() })),
+    }),
+  ),
   refused: v.array(
     v.strictObject({ task: taskSchema, relation: v.nullable(v.string()), vote: v.number(), error: errorSchema }),
   ),
@@ -152,6 +161,18 @@ export const methodSchemas = {
       together: v.optional(v.strictObject({ targets: v.array(v.string()), error_m: v.number() })),
     }),
   },
+  /**
+   * Random settings of a program's sliders, one value a layer, in which they spoil nothing together that each alone keeps;
+   * how many were drawn and not taken, and why. The same for the same program and seed.
+   */
+  siblings: {
+    parameters: v.strictObject({ program: v.unknown(), count: v.number(), seed: v.number() }),
+    result: v.strictObject({
+      siblings: v.array(v.array(v.number())),
+      rejected: v.number(),
+      reasons: v.array(v.strictObject({ reason: v.string(), count: v.number() })),
+    }),
+  },
   /** Every model of the gallery: entries of gallery.json, and one GLB each as buffers. */
   gallery: {
     parameters: v.strictObject({}),
@@ -169,6 +190,25 @@ export const methodSchemas = {
         taskSchema,
         v.strictObject({ words: v.string(), schema: v.looseObject({ type: v.optional(v.string()) }) }),
       ),
+    }),
+  },
+  /**
+   * The prompt of a task that proposes requests. `request` is empty for one about the model alone; `count` 0 is as many as
+   * the task says; `picture`: one goes along, with numbers on its parts: number i is `numbered[i - 1]`.
+   */
+  proposal_prompt: {
+    parameters: v.strictObject({
+      task: taskSchema,
+      request: v.string(),
+      mentioned: v.array(v.string()),
+      count: v.number(),
+      picture: v.boolean(),
+    }),
+    result: v.strictObject({
+      prompt: promptSchema,
+      words: v.string(),
+      schema: v.looseObject({ type: v.optional(v.string()) }),
+      numbered: v.array(v.string()),
     }),
   },
   /** A request read at once, without a language model; `mentioned` as for prompts. */
