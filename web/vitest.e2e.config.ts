@@ -9,6 +9,7 @@ export default defineConfig({
     include: ['tests/e2e/**/*.test.ts'],
     environment: 'node',
     fileParallelism: false,
+    retry: 1, // a machine that stalls for half a minute fails a test; what is broken fails twice
     testTimeout: 120_000,
     expect: { poll: { timeout: 20_000 } }, // a busy machine draws slowly
     hookTimeout: 60_000,

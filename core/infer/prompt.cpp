@@ -6,8 +6,8 @@
 #include "core/base/sha256.h"
 #include "core/base/text.h"
 #include "core/edit/program_fields.h"
-#include "core/infer/proposals.h"
 #include "core/infer/prompt_texts.h"
+#include "core/infer/proposals.h"
 #include "core/shape/words.h"
 
 namespace parsel {
