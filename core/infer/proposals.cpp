@@ -92,7 +92,7 @@ Result<std::vector<std::string>> parts_in(const Shape& shape, const json& list) 
 }
 
 /// Why it is no proposal, a clause; empty when it is one, which then is `proposal`.
-std::string fault_of(const Shape& shape, const json& item, bool amounts, Proposal& proposal) {
+std::string fault_of(const Shape& shape, const json& item, bool amounts, ProposedRequest& proposal) {
   if (!item.is_object()) return "it does not say which parts change";
   const json& request = member(item, {"request", "text"});
   if (!request.is_string()) return "it has no request";
@@ -120,7 +120,7 @@ Result<Proposals> proposals_of(const Shape& shape, const json& block, bool amoun
   Proposals result;
   std::set<std::string> known;
   for (const json& item : list) {
-    Proposal proposal;
+    ProposedRequest proposal;
     std::string fault = fault_of(shape, item, amounts, proposal);
     if (fault.empty() && !known.insert(signature(proposal.request)).second) fault = "it says the same as another one";
     if (fault.empty() && result.requests.size() == most_proposals) {
@@ -145,7 +145,7 @@ Proposals merge(const std::vector<Proposals>& replies) {
   Proposals all;
   std::set<std::string> known;
   for (const Proposals& reply : replies) {
-    for (const Proposal& proposal : reply.requests) {
+    for (const ProposedRequest& proposal : reply.requests) {
       if (known.insert(signature(proposal.request)).second) all.requests.push_back(proposal);
     }
     all.dropped.insert(all.dropped.end(), reply.dropped.begin(), reply.dropped.end());
@@ -166,7 +166,7 @@ void count(const Shape&, AboutRelation, const std::vector<Meaning>& meanings, In
 
 void write(const Shape&, const Inference& inference, json& out) {
   json requests = json::array(), dropped = json::array();
-  for (const Proposal& proposal : inference.proposals.requests) {
+  for (const ProposedRequest& proposal : inference.proposals.requests) {
     requests.push_back({{"request", proposal.request}, {"changes", proposal.changes}, {"keeps", proposal.keeps}});
   }
   for (const DroppedProposal& proposal : inference.proposals.dropped) {

@@ -14,7 +14,7 @@ inline constexpr int most_proposals = 12;
 /// Characters that a proposed request may have.
 inline constexpr std::size_t longest_proposal = 300;
 
-struct Proposal {
+struct ProposedRequest {
   std::string request;               ///< one that can be asked: not blank, no markup
   std::vector<std::string> changes;  ///< ids of the parts that it is about, at least one
   std::vector<std::string> keeps;    ///< ids of the parts of which it says that they stay
@@ -26,7 +26,7 @@ struct DroppedProposal {
 };
 
 struct Proposals {
-  std::vector<Proposal> requests;
+  std::vector<ProposedRequest> requests;
   std::vector<DroppedProposal> dropped;
 };
 
