@@ -98,7 +98,7 @@ export function renderProposals(core, proposals, recordings) {
     const { proposals: found } = core('read_replies', { request, replies: [{ task, relation: null, texts }] }).result;
     const proposed = found.requests.map((one) => {
       const { prompts, tasks } = core('prompts', { request: one.request, mentioned: [] }).result;
-      // Which symmetries may go is not asked of proposals: see web/src/session/suggestions.ts.
+      // Which symmetries may go is not asked of proposals: it would be five times as many questions.
       const asked = prompts.filter(({ relation }) => relation === null);
       return { model, task, request: one.request, mentioned: [], suggest: false, prompts: asked, tasks };
     });
