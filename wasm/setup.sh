@@ -15,6 +15,7 @@ die() {
 build_needs="g++ g++
 cmake cmake
 ninja ninja-build
+ccache ccache
 python3 python3
 bison bison
 flex flex
