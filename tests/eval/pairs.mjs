@@ -57,7 +57,9 @@ function readPairs() {
   const edits = join(data, 'paper', 'edits.json');
   return {
     pairs: pairs.map(({ model, request, assertions }) => {
-      return { model, request, predicates: assertions.flatMap(({ predicates }) => predicates) };
+      // Some of what a person expects is beyond these predicates, and says so.
+      const predicates = assertions.flatMap((one) => one.predicates).filter(({ testable }) => testable !== false);
+      return { model, request, predicates };
     }),
     edits: existsSync(edits) ? JSON.parse(readFileSync(edits, 'utf8')) : {},
   };
@@ -117,8 +119,10 @@ if (values.write || values.read) {
   const prompts = new Map(rendered.flatMap((pair) => pair.prompts.map((prompt) => [prompt.hash, prompt])));
   if (values.write) {
     mkdirSync(values.write, { recursive: true });
-    for (const { hash, text: prompt } of prompts.values()) {
+    for (const { hash, relation, text: prompt } of prompts.values()) {
       for (let vote = 0; vote < votes; ++vote) {
+        // Which symmetries may go is asked once, as there are many of them.
+        if (vote > 0 && relation !== null) continue;
         if (!kept.replies[hash]?.[vote]) writeFileSync(join(values.write, `${hash}.${vote}.prompt.md`), prompt);
       }
     }
