@@ -20,6 +20,7 @@ import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { ProgramDialog } from './ProgramDialog';
 import { ShareDialog } from './ShareDialog';
+import { SplitOffer } from './SplitCard';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
 import { listenForShortcuts } from './shortcuts';
@@ -80,6 +81,7 @@ export function App() {
           style={{ paddingLeft: `${insets.left + 12}px`, paddingRight: `${insets.right + 12}px` }}
         >
           <TourOffer />
+          <SplitOffer />
           <StatusLine />
           <div class="row">
             <Dimensions />
