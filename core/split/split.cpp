@@ -20,11 +20,10 @@ namespace {
 
 using namespace split;
 
-constexpr std::array<std::pair<SplitMethod, std::string_view>, 4> methods = {
-    {{SplitMethod::automatic, "auto"},
-     {SplitMethod::components, "components"},
-     {SplitMethod::materials, "materials"},
-     {SplitMethod::regions, "regions"}}};
+constexpr std::array<std::pair<SplitMethod, std::string_view>, 4> methods = {{{SplitMethod::automatic, "auto"},
+                                                                              {SplitMethod::components, "components"},
+                                                                              {SplitMethod::materials, "materials"},
+                                                                              {SplitMethod::regions, "regions"}}};
 
 /// Fewer parts than this, and components have told nothing apart: a fused model, maybe with a few screws.
 constexpr std::size_t few_parts = 3;
@@ -43,7 +42,7 @@ struct Group {
 
 struct Source {
   std::size_t mesh = 0;
-  int node = -1;  ///< the first that shows it
+  int node = -1;                            ///< the first that shows it
   std::vector<const PartMesh*> primitives;  ///< of that node, those that were read
   std::size_t nodes = 0;                    ///< that show it in the scene
   std::vector<Group> groups;
@@ -142,7 +141,8 @@ class Splitter {
       Source& source = sources_[i];
       for (Group& group : source.groups) {
         group.pieces = pieces_in(group);
-        if (result_.by != SplitMethod::materials) result_.joined += join_small(group.pieces, small_below(options_.fine));
+        if (result_.by != SplitMethod::materials)
+          result_.joined += join_small(group.pieces, small_below(options_.fine));
       }
       parts += source.nodes * source.pieces();
       parts -= source.nodes * source.primitives.size();
@@ -171,7 +171,8 @@ class Splitter {
   static PartMesh mesh_of(const PartMesh& mesh, const Piece& piece) {
     PartMesh out;
     std::vector<std::uint32_t> used;
-    for (const std::uint32_t t : piece.triangles) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    for (const std::uint32_t t : piece.triangles)
+      used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (const std::uint32_t v : used) out.positions.push_back(mesh.positions[v]);

@@ -36,8 +36,8 @@ struct SplitOptions {
 
 struct SplitModel {
   std::string glb;
-  std::size_t before = 0, parts = 0;  ///< real parts of the shape; the same when nothing comes apart
-  std::size_t joined = 0;             ///< pieces that were too small to be parts, each mesh counted once
+  std::size_t before = 0, parts = 0;         ///< real parts of the shape; the same when nothing comes apart
+  std::size_t joined = 0;                    ///< pieces that were too small to be parts, each mesh counted once
   SplitMethod by = SplitMethod::components;  ///< what was done; never automatic
   std::vector<Warning> warnings;             ///< what was left whole, and why
 };

@@ -68,7 +68,10 @@ double stored(const char* bytes, std::size_t c, std::size_t type) {
 class Writer {
  public:
   explicit Writer(gltf::File& file)
-      : file_(file), document_(file.original), json_(document_.json), originals_(json_.value("accessors", json::array())) {}
+      : file_(file),
+        document_(file.original),
+        json_(document_.json),
+        originals_(json_.value("accessors", json::array())) {}
 
   Status run(const std::vector<NewNodes>& meshes) {
     free_what_goes(meshes);
@@ -87,7 +90,7 @@ class Writer {
   void free_what_goes(const std::vector<NewNodes>& meshes) {
     std::set<std::size_t> going, stay;
     for (const NewNodes& mesh : meshes) going.insert(mesh.mesh);
-    std::set<std::size_t> &accessors = free_accessors_, &views = free_views_;
+    std::set<std::size_t>&accessors = free_accessors_, &views = free_views_;
     const auto keep_accessor = [&](std::size_t a) { stay.insert(a); };
     for (std::size_t m = 0; m < json_["meshes"].size(); ++m) {
       for (const json& primitive : json_["meshes"][m]["primitives"]) {

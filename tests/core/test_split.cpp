@@ -2,10 +2,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "core/edit/evaluate.h"
 #include "core/gallery/gallery.h"
+#include "core/propagate/propagate.h"
 #include "core/shape/abstraction.h"
 #include "core/shape/gltf_import.h"
 #include "core/split/split.h"
@@ -99,6 +101,50 @@ TEST_CASE("every gallery model comes apart into its generator's parts when it is
     const auto shape = abstract_shape(split->glb, entry.id);
     REQUIRE(shape.ok());
     CHECK(validate(shape->shape).ok());
+  }
+}
+
+TEST_CASE("widening the merged, nameless chair moves every part as on the labelled one") {
+  const auto asset = build(*find_gallery_model("chair"));
+  REQUIRE(asset.ok());
+  const auto split = split_model(merged(asset->glb));
+  REQUIRE(split.ok());
+  const auto labelled = abstract_shape(asset->glb, "chair"), nameless = abstract_shape(split->glb, "model");
+  REQUIRE(labelled.ok());
+  REQUIRE(nameless.ok());
+  const Shape &a = labelled->shape, &b = nameless->shape;
+  const auto centre = [](const Part& part) { return Vec3(part.hexahedron.corners.colwise().mean().transpose()); };
+  const auto twin = [&](const Part& part) {
+    std::optional<PartIndex> nearest;
+    for (const PartIndex p : b.parts.indices()) {
+      if (b.parts[p].is_virtual()) continue;
+      if ((centre(b.parts[p]) - centre(part)).norm() < 1e-4) nearest = p;
+    }
+    REQUIRE(nearest.has_value());
+    return *nearest;
+  };
+  const auto widened = [](const Shape& shape, const std::string& seat) {
+    const auto request =
+        edit_request_from_json({{"seed", nlohmann::json::array({{{"op", "scale_1d"},
+                                                                 {"part", seat},
+                                                                 {"feature", {0, 0, 0}},
+                                                                 {"origin", {{"part", seat}, {"at", {0, 0, 0}}}},
+                                                                 {"direction", {1, 0, 0}},
+                                                                 {"amount", "x"}}})}});
+    REQUIRE(request.ok());
+    auto found = propagate(shape, *request);
+    REQUIRE(found.ok());
+    return Evaluator(found->program, shape)({0.2});
+  };
+  const auto seat = a.find_part("seat");
+  REQUIRE(seat.has_value());
+  const State on_a = widened(a, "seat"), on_b = widened(b, b.parts[twin(a.parts[*seat])].id);
+  for (const PartIndex p : a.parts.indices()) {
+    if (a.parts[p].is_virtual()) continue;
+    CAPTURE(a.parts[p].id);
+    const Corners &x = on_a.parts[p], &y = on_b.parts[twin(a.parts[p])];
+    CHECK((x.colwise().minCoeff() - y.colwise().minCoeff()).cwiseAbs().maxCoeff() < 0.005);
+    CHECK((x.colwise().maxCoeff() - y.colwise().maxCoeff()).cwiseAbs().maxCoeff() < 0.005);
   }
 }
 
