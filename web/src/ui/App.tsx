@@ -20,7 +20,6 @@ import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { ProgramDialog } from './ProgramDialog';
 import { ShareDialog } from './ShareDialog';
-import { SplitOffer } from './SplitCard';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
 import { listenForShortcuts } from './shortcuts';
@@ -81,7 +80,6 @@ export function App() {
           style={{ paddingLeft: `${insets.left + 12}px`, paddingRight: `${insets.right + 12}px` }}
         >
           <TourOffer />
-          <SplitOffer />
           <StatusLine />
           <div class="row">
             <Dimensions />
