@@ -78,6 +78,7 @@ class Writer {
     for (const NewNodes& mesh : meshes) {
       if (Status s = add_mesh(mesh); !s.ok()) return s;
     }
+    empty_what_is_left();
     place_bytes();
     for (const char* key : {"nodes", "meshes", "accessors", "bufferViews"}) {
       if (json_.contains(key)) file_.json.set(key, gltf::JsonText(nlohmann::ordered_json(json_[key])));
@@ -250,6 +251,15 @@ class Writer {
     free.erase(free.begin());
     all[at] = std::move(entry);
     return at;
+  }
+
+  /// Where primitives were joined, fewer accessors are made than were freed: those left keep their numbers, of nothing.
+  void empty_what_is_left() {
+    for (const std::size_t a : free_accessors_) {
+      json& accessor = json_["accessors"][a];
+      for (const char* key : {"bufferView", "byteOffset", "sparse", "min", "max"}) accessor.erase(key);
+      accessor["count"] = 1;
+    }
   }
 
   /// Whether the bytes of buffer 0 can be put in order anew: they are at hand, and views alone say where they lie.

@@ -7,6 +7,7 @@
 
 #include "core/edit/evaluate.h"
 #include "core/gallery/gallery.h"
+#include "core/gltf/accessor.h"
 #include "core/propagate/propagate.h"
 #include "core/shape/abstraction.h"
 #include "core/shape/gltf_import.h"
@@ -195,6 +196,30 @@ TEST_CASE("a fused model comes apart where it is creased inwards") {
   CHECK(split->by == SplitMethod::regions);
   CHECK(split->parts == 2);
   CHECK(matched({{{-1, -0.2, -1}, {1, 0.2, 1}}, {{-0.2, 0.2, -0.2}, {0.2, 2.2, 0.2}}}, all_bounds(split->glb)) == 2);
+}
+
+TEST_CASE("faces of one solid that are primitives of their own become one part") {
+  fixture::Document d = fixture::document({{"", fixture::box({0, 0, 0}, {1, 2, 3})}});
+  nlohmann::json& primitives = d.json["meshes"][0]["primitives"];
+  const nlohmann::json whole = primitives[0];
+  const nlohmann::json indices = d.json["accessors"][whole["indices"].get<std::size_t>()];
+  primitives = nlohmann::json::array();
+  for (std::size_t face = 0; face < 6; ++face) {
+    nlohmann::json part = whole, accessor = indices;
+    accessor["byteOffset"] = face * 6 * 4;  // two triangles of 32-bit indices
+    accessor["count"] = 6;
+    part["indices"] = d.json["accessors"].size();
+    d.json["accessors"].push_back(accessor);
+    primitives.push_back(part);
+  }
+  const auto split = split_model(d.glb());
+  REQUIRE(split.ok());
+  CHECK(split->before == 6);
+  CHECK(split->parts == 1);
+  CHECK(matched({{{-0.5, -1, -1.5}, {0.5, 1, 1.5}}}, all_bounds(split->glb)) == 1);
+  const auto document = gltf::read_document(split->glb, {});
+  REQUIRE(document.ok());
+  for (std::size_t a = 0; a < document->accessors.size(); ++a) CHECK(gltf::check_accessor(*document, a).ok());
 }
 
 TEST_CASE("a split model that is split again stays as it is") {
