@@ -117,7 +117,7 @@ function Progress({ asked }: { asked: Asked }) {
 function endWords({ proposals, spent }: Asked): string {
   if (proposals.length === 0) return '';
   const clean = proposals.filter(isClean).length;
-  const sliders = `${clean} of ${proposals.length} can be kept as they are`;
+  const sliders = `${clean} of ${proposals.length} are clean`;
   if (isDemo.value) return `${sliders} · recorded answers`;
   const { input, output } = spent.tokens;
   const cost = costOf(spent.tokens);
