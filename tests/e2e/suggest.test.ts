@@ -1,5 +1,5 @@
 // One click to a parametric model: suggested sliders of the gallery chair, from recordings and from a server that replays
-// them as a language model would; siblings.
+// them as a language model would; siblings; other readings of a request.
 import type { BrowserContextOptions, Page } from 'playwright-core';
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
@@ -250,6 +250,33 @@ describe('siblings', () => {
     expect(await values(page)).not.toEqual(before);
     await page.getByRole('button', { name: 'Undo: take a sibling' }).click();
     expect(await values(page)).toEqual(before);
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+});
+
+describe('other readings', () => {
+  it('stand side by side, and one takes the place of the layer', async () => {
+    const { page, complaints } = await openChair({ reducedMotion: 'reduce' });
+    await page.getByLabel('What to change').fill('widen the chair');
+    await page.getByLabel('What to change').press('Enter');
+    await expect.poll(() => layers(page)).toEqual(['widen the chair']);
+    const doing = () => page.evaluate(() => JSON.stringify(parsel.document().layers[0]?.layer.statements));
+    const before = await doing();
+    await page.getByRole('button', { name: 'More about widen the chair' }).click();
+    await page.getByRole('menuitem', { name: 'Other readings' }).click();
+    const dialog = page.getByRole('dialog', { name: /^Other readings/ });
+    const take = dialog.getByRole('button', { name: 'Take this' });
+    await take.first().waitFor();
+    await page.screenshot({ path: `${outputFolder}/suggest-readings.png` });
+    expect(await serious(page)).toEqual([]);
+    await dialog.getByLabel('How far, in all readings').fill('-1');
+    await take.last().click();
+    await expect.poll(() => dialog.count()).toBe(0);
+    expect(await doing()).not.toBe(before);
+    expect(await layers(page)).not.toEqual(['widen the chair']);
+    await page.getByRole('button', { name: /^Undo: read it as/ }).click();
+    expect(await doing()).toBe(before);
     expect(complaints).toEqual([]);
     await page.context().close();
   });

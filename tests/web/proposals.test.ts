@@ -133,7 +133,31 @@ describe('proposals', () => {
       layers: moving('left').layers.map((layer) => ({ ...layer, relations })),
     });
     await start();
-    expect(proposals.open.value[0]?.state).toMatchObject({ fault: { kind: 'broken', relations: ['a1'] } });
+    expect(proposals.open.value[0]?.state).toMatchObject({
+      fault: { kind: 'broken', relations: ['a1'] },
+      looser: null,
+    });
+  });
+
+  it('offer to let parts follow that were to stay, where nothing breaks then', async () => {
+    const { core, proposals, start } = ready(['left']);
+    const read = core.readReplies;
+    core.readReplies = async (...asked) => {
+      const inference = await read(...asked);
+      return {
+        ...inference,
+        edit: inference.edit && { ...inference.edit, hints: { right: 'keep_fixed', left: 'scale' } },
+      };
+    };
+    const relations = [{ id: 'a1', status: 'broken', worst: 1, proof: 'sampled' } as const];
+    const whole = moving('left');
+    core.answer = async ({ hints }) =>
+      'right' in hints ? { ...whole, layers: whole.layers.map((layer) => ({ ...layer, relations })) } : moving('right');
+    await start();
+    expect(proposals.open.value.filter(isClean)).toEqual([]);
+    proposals.loosen(proposals.open.value[0]?.key ?? 0);
+    expect(proposals.open.value.filter(isClean)).toHaveLength(1);
+    expect(proposals.open.value[0]?.state).toMatchObject({ found: { program: moving('right') } });
   });
 
   it('are asked without a picture of a model that refuses one', async () => {

@@ -3,7 +3,7 @@
 import { batch, computed, type ReadonlySignal, signal } from '@preact/signals';
 import { AskError } from '../llm/ask_error';
 import type { Layer } from '../program/types';
-import { type LayerEntry, type OpenModel, withFreshParameters, withRequest } from './document';
+import { type EditInput, type LayerEntry, type OpenModel, withFreshParameters, withRequest } from './document';
 import type { ModelCore, Propagation } from './model_core';
 import { type About, type Asker, type PaintNumbered, propose, readProposal, type Spent } from './propose';
 import type { Session } from './session';
@@ -22,6 +22,8 @@ export interface Found {
   readonly found: Propagation;
   /** Null: it is clean. */
   readonly fault: Fault | null;
+  /** What is clean in its place when parts follow that were to stay; null where nothing is wrong, or that does not help. */
+  readonly looser: Propagation | null;
 }
 
 export interface Proposal {
@@ -72,6 +74,8 @@ export interface Proposals {
   rename(key: number, request: string): void;
   /** @param by −1 up, 1 down */
   move(key: number, by: -1 | 1): void;
+  /** Lets parts of one follow that were to stay. */
+  loosen(key: number): void;
   /** Makes one a layer, its slider where it stands; answers the layer's key. */
   keep(key: number): number | null;
   /** Makes all clean ones layers, in one step of the history; answers their keys. */
@@ -122,7 +126,9 @@ export function createProposals({ session, models, askerOf }: ProposalsParts): P
       if (edit === null) return changeOne(stop, key, { state: { kind: 'refused', text: sentence(new Error(why)) } });
       const found = await core.propagate(model, edit, { signal });
       const others = state.peek()?.proposals ?? [];
-      changeOne(stop, key, { state: { kind: 'found', found, fault: faultOf(found, others) } });
+      const fault = faultOf(found, others);
+      const looser = fault?.kind === 'broken' ? await findLooser(core, model, edit, signal) : null;
+      changeOne(stop, key, { state: { kind: 'found', found, fault, looser } });
     } catch (error) {
       if (signal.aborted) return;
       changeOne(stop, key, { state: { kind: 'refused', text: sentence(error) } });
@@ -242,6 +248,13 @@ export function createProposals({ session, models, askerOf }: ProposalsParts): P
       if (own === undefined || other === undefined) return;
       changeAll((proposals) => proposals.map((one) => (one === own ? other : one === other ? own : one)));
     },
+    loosen(key) {
+      const one = open.peek().find((other) => other.key === key);
+      if (one?.state.kind !== 'found' || one.state.looser === null) return;
+      const state: Found = { kind: 'found', found: one.state.looser, fault: null, looser: null };
+      if (shown.peek()?.key === key) unshow();
+      changeAll((proposals) => proposals.map((other) => (other === one ? { ...one, state } : other)));
+    },
     keep(key) {
       const kept = foundOf(key);
       if (kept === null) return null;
@@ -306,6 +319,19 @@ function newRun(): Run {
 }
 
 export const isClean = ({ state }: Proposal): boolean => state.kind === 'found' && state.fault === null;
+
+/** What comes of an edit without the hints that parts stay; null when that is not clean either, or there are none. */
+async function findLooser(
+  core: ModelCore,
+  model: OpenModel,
+  edit: EditInput,
+  signal: AbortSignal,
+): Promise<Propagation | null> {
+  const hints = Object.fromEntries(Object.entries(edit.hints).filter(([, hint]) => hint !== 'keep_fixed'));
+  if (Object.keys(hints).length === Object.keys(edit.hints).length) return null;
+  const found = await core.propagate(model, { ...edit, hints }, { signal });
+  return faultOf(found, []) === null ? found : null;
+}
 
 /** What is wrong with a slider. */
 function faultOf({ program }: Propagation, others: readonly Proposal[]): Fault | null {

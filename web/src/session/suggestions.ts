@@ -61,5 +61,8 @@ async function recordedAsker({ source, labels }: OpenModel): Promise<Asker> {
   };
 }
 
+const parts = { session, models, askerOf };
 /** Sliders for the model. */
-export const suggestions = createProposals({ session, models, askerOf });
+export const suggestions = createProposals(parts);
+/** Other readings of one layer's request. */
+export const otherReadings = createProposals(parts);

@@ -21,6 +21,7 @@ import { ModelDialog } from './ModelDialog';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { ProgramDialog } from './ProgramDialog';
+import { ReadingsDialog } from './ReadingsDialog';
 import { ShareDialog } from './ShareDialog';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
@@ -112,6 +113,7 @@ export function App() {
       {dialog.value === 'text' && <ProgramDialog />}
       {dialog.value === 'model' && <ModelDialog />}
       {dialog.value === 'explore' && <ExploreDialog />}
+      {dialog.value === 'readings' && <ReadingsDialog />}
       {dropping.value && (
         <div class="drop" aria-hidden="true">
           <p>Drop a model to open it</p>

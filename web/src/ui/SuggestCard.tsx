@@ -51,7 +51,7 @@ export function SuggestCard({ model, proposal, first, last, isRunning }: CardPro
       {layer !== undefined && moves && <Moves model={model} proposal={proposal} layer={layer} />}
       {state.kind === 'found' && state.fault !== null && <Warning text={faultWords(model, state.fault)} />}
       {state.kind !== 'reading' && (
-        <div class="row">
+        <div class="row wrap">
           {moves && (
             <button
               type="button"
@@ -61,7 +61,17 @@ export function SuggestCard({ model, proposal, first, last, isRunning }: CardPro
                 if (kept !== null) playOnce(kept);
               }}
             >
-              <Icon name="check" /> {state.fault === null ? 'Keep' : 'Keep all the same'}
+              <Icon name="check" /> {state.fault === null ? 'Keep' : 'Keep anyway'}
+            </button>
+          )}
+          {state.kind === 'found' && state.looser !== null && (
+            <button
+              type="button"
+              class="button outlined"
+              title="Parts that were to stay may follow, so that nothing comes apart"
+              onClick={() => suggestions.loosen(key)}
+            >
+              Let parts follow
             </button>
           )}
           {(state.kind === 'stopped' || state.kind === 'refused') && (
@@ -138,7 +148,7 @@ function Moves({ model, proposal, layer }: { model: OpenModel; proposal: Proposa
   const { min, max } = layer.parameter;
   const value = suggestions.standing(key);
   const text = readingOf(model, layer, value);
-  const urls = strips.value.get(key);
+  const urls = strips.value.get(layer);
   const unit = (max - min) / steps;
   const share = (x: number) => (x - min) / (max - min);
   const go = (to: number) => suggestions.preview(key, Math.min(max, Math.max(min, to)));

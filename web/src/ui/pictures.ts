@@ -36,22 +36,21 @@ export function paint(model: OpenModel, pictures: readonly Picture[], framing?: 
 
 const stripSize = 192; // pixels
 
-/** Addresses of the pictures of a proposal, by its key. */
-export const strips = signal<ReadonlyMap<number, readonly string[]>>(new Map());
+/** Addresses of the pictures of what is proposed. */
+export const strips = signal<ReadonlyMap<Layer, readonly string[]>>(new Map());
 
 /** Draws the strips of what is found, one a frame. Answers how to stop. */
 export function drawStrips({ open, asked }: Proposals): () => void {
   let frame = 0;
   const stop = effect(() => {
     const { model } = document.value;
-    const wanted = open.value.find(({ key, state }) => state.kind === 'found' && !strips.value.has(key));
+    const layers = open.value.flatMap(({ state }) => (state.kind === 'found' ? state.found.program.layers : []));
+    const wanted = layers.find((layer) => !strips.value.has(layer));
     if (asked.value === null && strips.peek().size > 0) strips.value = new Map();
     cancelAnimationFrame(frame);
-    if (wanted?.state.kind !== 'found' || model === null || stage.value === null || shown.value !== model.shape) return;
-    const layer = wanted.state.found.program.layers[0];
+    if (wanted === undefined || model === null || stage.value === null || shown.value !== model.shape) return;
     frame = requestAnimationFrame(() => {
-      const urls = layer === undefined ? [] : drawStrip(model, layer);
-      strips.value = new Map(strips.peek()).set(wanted.key, urls);
+      strips.value = new Map(strips.peek()).set(wanted, drawStrip(model, wanted));
     });
   });
   return () => {
