@@ -320,7 +320,7 @@ class Parser {
       case WordKind::to:
         to_ = to_ || next_is(WordKind::number);
         break;
-      case WordKind::exact:
+      case WordKind::exactly:
         exact_ = true;
         break;
       case WordKind::of:

@@ -30,7 +30,7 @@ const std::map<std::string_view, WordKind> plain_kinds = {
     {"so", WordKind::so},           {"by", WordKind::by},
     {"of", WordKind::of},           {"at", WordKind::at},
     {"to", WordKind::to},           {"as", WordKind::as},
-    {"exact", WordKind::exact},     {"percent", WordKind::percent},
+    {"exact", WordKind::exactly},     {"percent", WordKind::percent},
     {"degrees", WordKind::degrees}, {"same_size", WordKind::same_size},
     {"without", WordKind::keep},    {"follow", WordKind::follow},
     {"too", WordKind::too},         {"it", WordKind::whole},

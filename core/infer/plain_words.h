@@ -64,7 +64,7 @@ enum class WordKind {
   at,
   to,
   as,
-  exact,
+  exactly,
   unknown,
 };
 
