@@ -19,6 +19,7 @@ constexpr double on_floor = 0.03;
 constexpr double shortest_leg = 0.08;
 constexpr double longest_leg = 0.85;
 constexpr double back_above = 0.25;  ///< and more is where a back begins
+constexpr double back_height = 0.2;  ///< and more is how high it is
 constexpr double back_width = 0.4;   ///< and more is how wide it is
 constexpr double panel_face = 0.15;  ///< of the largest face of any part, and more is a panel
 constexpr std::size_t most_panels = 3;
@@ -61,15 +62,21 @@ class Offers {
     noun.parts = parts;
     noun.plural = true;
     clause.nouns = {noun};
-    offer(title_of(parts.front(), quantity), clause, parts);
+    offer(title_of(parts, quantity), clause, parts);
   }
 
-  /// "Leg height": what the part is called without its side.
-  std::string title_of(PartIndex part, const std::string& quantity) const {
-    const Part& named = shape_.parts[part];
+  bool is_taken(const std::string& title) const {
+    return std::any_of(offers_.begin(), offers_.end(), [&](const PlainOffer& other) {
+      return other.title.size() == title.size() && other.title.substr(1) == title.substr(1);
+    });
+  }
+  /// "Leg height", "Tabletop thickness": a part by its name, several by what they are called without their side.
+  std::string title_of(const std::vector<PartIndex>& parts, const std::string& quantity) const {
+    const Part& named = shape_.parts[parts.front()];
     const std::string& label = named.is_virtual() ? shape_.parts[named.members.front()].label : named.label;
     std::string base = grouping_key(label);
-    if (base.empty() || base == "part") base = name_of(shape_, part);
+    const bool is_one = parts.size() == 1 && !named.is_virtual();
+    if (is_one || base.empty() || base == "part" || is_taken(base + " " + quantity)) base = name_of(shape_, parts[0]);
     if (base[0] >= 'a' && base[0] <= 'z') base[0] = static_cast<char>(base[0] - 'a' + 'A');
     return base + " " + quantity;
   }
@@ -118,8 +125,11 @@ class Offers {
     const PartNames names(shape_, word_lists().front());
     const std::vector<Token> word = plain_tokens("back");
     std::vector<PartIndex> parts = names.called(word).parts;
+    // Not the apron at the back of a table.
+    const double height = facts_.whole().size()[1];
     std::erase_if(parts, [&](PartIndex p) {
-      return facts_.extent(p).low[1] <= facts_.whole().low[1] + back_above * facts_.whole().size()[1];
+      const Extent own = facts_.extent(p);
+      return own.low[1] <= facts_.whole().low[1] + back_above * height || own.size()[1] < back_height * height;
     });
     if (parts.empty()) {
       for (const PartIndex p : facts_.active()) {

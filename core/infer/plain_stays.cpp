@@ -15,6 +15,11 @@ bool is_bare(const Clause& c) {
          c.fault.empty() && (!c.nouns.empty() || c.whole || c.everything_else);
 }
 
+bool says_only_as_it_is(const Clause& c) {
+  return !c.fixed.empty() && !c.keeps && c.change == Change::none && !c.how_much && !c.where && c.out == 0 && !c.only &&
+         c.fault.empty() && c.nouns.empty() && !c.whole && !c.everything_else;
+}
+
 bool links_list(Link link) {
   return link == Link::comma || link == Link::conjunction || link == Link::comma_and_conjunction;
 }
@@ -85,8 +90,8 @@ std::string keep_the_rest(const ShapeFacts& facts, PlainEdit& edit) {
       if (changed.count(p) > 0) continue;
       const Extent other = facts.extent(p);
       if (other.low[1] >= own.high[1] - slack) along[p] = Hint::translate;
-      // Beside it, above its middle: up with it, longer with it, or where it is?
-      else if (other.centre()[1] > own.centre()[1])
+      // Beside it, and reaching above its middle: up with it, longer with it, or where it is?
+      else if (other.high[1] > own.centre()[1])
         return "it is not clear whether " + name_of(shape, p) + " goes along";
     }
   }
@@ -105,6 +110,10 @@ void spread_keeps(Sentence& sentence) {
   for (Clause& c : clauses) {
     // "with the legs unchanged"
     if (!c.fixed.empty() && is_bare(c)) c.keeps = c.named_before = true;
+  }
+  for (std::size_t i = 1; i < clauses.size(); ++i) {
+    // "stay, as they are", which German parts by a comma.
+    if (clauses[i - 1].keeps && says_only_as_it_is(clauses[i])) clauses[i].fixed.clear();
   }
   for (std::size_t i = 0; i < clauses.size(); ++i) {
     if (!clauses[i].keeps) continue;
@@ -138,6 +147,7 @@ std::string keep(const ShapeFacts& facts, const Clause& clause, PlainEdit& edit)
     parts.insert(parts.end(), some.begin(), some.end());
   }
   if (parts.empty() && clause.whole) {
+    if (!clause.names_whole) return "it is not clear what shall stay";
     if (lifted_above > 1.5) return "the whole cannot both change and stay";
     for (const PartIndex p : facts.active()) {
       if (changed.count(p) == 0 && facts.extent(p).centre()[1] > lifted_above) parts.push_back(p);
