@@ -77,6 +77,7 @@ class Offers {
     std::string base = grouping_key(label);
     const bool is_one = parts.size() == 1 && !named.is_virtual();
     if (is_one || base.empty() || base == "part" || is_taken(base + " " + quantity)) base = name_of(shape_, parts[0]);
+    std::replace(base.begin(), base.end(), '_', ' ');
     if (base[0] >= 'a' && base[0] <= 'z') base[0] = static_cast<char>(base[0] - 'a' + 'A');
     return base + " " + quantity;
   }

@@ -29,10 +29,10 @@ bool all_held(const Program& program) {
 
 /// The seat wider, with legs that follow by `legs` (each way) and a back as wide as the seat.
 std::vector<Statement> wider(const std::string& legs) {
-  return {
-      statement(Op::scale_1d, "seat", Vec3::UnitX(), "x1"), statement(Op::translate, "leg_left", Vec3::UnitX(), legs),
-      statement(Op::translate, "leg_right", -Vec3::UnitX(), legs), statement(Op::scale_1d, "back", Vec3::UnitX(), "x1"),
-      statement(Op::scale_1d, "door_handle", Vec3::UnitX(), "x1")};
+  return {statement(Op::scale_1d, "seat", Vec3::UnitX(), "x1"),
+          statement(Op::translate, "leg_left", Vec3::UnitX(), legs),
+          statement(Op::translate, "leg_right", -Vec3::UnitX(), legs),
+          statement(Op::scale_1d, "back", Vec3::UnitX(), "x1"), statement(Op::scale_1d, "handle", Vec3::UnitX(), "x1")};
 }
 
 }  // namespace
