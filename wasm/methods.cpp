@@ -7,11 +7,14 @@
 #include <stdexcept>
 
 #include "core/amount/amount.h"
+#include "core/check/check.h"
 #include "core/export/sliders.h"
 #include "core/gallery/gallery.h"
 #include "core/infer/inference.h"
+#include "core/infer/plain_offers.h"
 #include "core/infer/plain_reading.h"
 #include "core/infer/prompt.h"
+#include "core/propagate/clean.h"
 #include "core/propagate/propagate.h"
 #include "core/propagate/solve.h"
 #include "core/prove/together.h"
@@ -137,6 +140,42 @@ Result<Output> propagate_edit(const Input& input) {
   const Result<Propagation> found = propagate(model->shape, *request, {}, input.progress);
   if (!found.ok()) return found.error();
   return Output{{{"program", to_json(found->program)}, {"trace", to_json(found->trace)}}, {}};
+}
+
+/// What geometry and labels offer of the open model.
+Result<Output> offers(const Input&) {
+  if (!model) return no_model();
+  return Output{{{"offers", to_json(plain_offers(model->shape))}}, {}};
+}
+
+/// edit: parsel/edit v1. As propagate, but refused unless it is clean, over a range cut to where it is, and passes the
+/// checker.
+Result<Output> propagate_clean(const Input& input) {
+  if (!model) return no_model();
+  const Result<EditRequest> request = edit_request_from_json(input.parameters.value("edit", json()));
+  if (!request.ok()) return request.error();
+  const Result<Propagation> found = propagate_cleanly(model->shape, *request, {}, input.progress);
+  if (!found.ok()) return found.error();
+  const CheckReport report = check_program(model->shape, found->program);
+  if (!report.accepted()) {
+    const Finding& first = report.findings.front();
+    return Error{"check", first.place, first.text, first.fix};
+  }
+  return Output{{{"program", to_json(found->program)}, {"trace", to_json(found->trace)}}, {}};
+}
+
+/// program: parsel/program v1; layer: an index; to: a value of its parameter.
+Result<Output> extend(const Input& input) {
+  if (!model) return no_model();
+  Result<Program> program = program_from_json(input.parameters.value("program", json()));
+  if (!program.ok()) return program.error();
+  if (const Status valid = validate(*program, model->shape); !valid.ok()) return valid.error();
+  const json layer = input.parameters.value("layer", json()), to = input.parameters.value("to", json());
+  if (!layer.is_number_unsigned() || layer.get<std::size_t>() >= program->layers.size())
+    return wrong_parameter("layer", "the index of a layer");
+  if (!to.is_number()) return wrong_parameter("to", "a number");
+  extend_range(model->shape, *program, layer.get<std::size_t>(), to.get<double>());
+  return Output{{{"program", to_json(*program)}}, {}};
 }
 
 /// program: parsel/program v1; values: one a layer; animate: a parameter's name, or morph: true, for a morph target of
@@ -319,6 +358,9 @@ constexpr std::array all_methods = {
     Method{"open", open},
     Method{"split", split},
     Method{"propagate", propagate_edit},
+    Method{"offers", offers},
+    Method{"propagate_clean", propagate_clean},
+    Method{"extend", extend},
     Method{"apply", apply},
     Method{"siblings", siblings},
     Method{"gallery", gallery},

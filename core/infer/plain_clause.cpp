@@ -22,6 +22,7 @@ class Parser {
     while (at_ < items_.size()) take();
     end_clause();
     std::erase_if(sentence_.clauses, is_empty);
+    spread_keeps(sentence_);
     return std::move(sentence_);
   }
 
@@ -32,7 +33,7 @@ class Parser {
   }
   static bool is_empty(const Clause& c) {
     return c.change == Change::none && c.nouns.empty() && !c.whole && !c.where && c.out == 0 && !c.how_much &&
-           !c.only && !c.keeps && c.fault.empty();
+           !c.only && !c.keeps && !c.everything_else && c.fixed.empty() && c.fault.empty();
   }
   void unused(const Item& item) {
     for (std::size_t i = 0; i < item.count; ++i) sentence_.unused.push_back(item.first + i);
@@ -65,6 +66,11 @@ class Parser {
     c.counts_one = c.counts_one || (what == Change::count && item.word.kind == WordKind::change);
   }
 
+  static Clause::Link link_of(const std::string& said) {
+    if (said == "." || said == ";") return Clause::Link::sentence;
+    return said == "," ? Clause::Link::comma : Clause::Link::conjunction;
+  }
+
   void where(const Side& side, const Item& item) {
     Clause& c = now();
     if (c.where && !(*c.where == side)) {
@@ -74,10 +80,20 @@ class Parser {
     c.where = side;
   }
 
-  void begin(Clause::Begins how) {
+  void begin(Clause::Begins how, Clause::Link link = Clause::Link::other) {
+    using Link = Clause::Link;
     end_clause();
     Clause next;
     next.begins = how;
+    next.link = link;
+    if (is_empty(now())) {  // of several links, as in ", and", the one that parts more
+      const Link before = now().link;
+      const bool comma = before == Link::comma || link == Link::comma;
+      const bool conjunction = before == Link::conjunction || link == Link::conjunction;
+      if (before == Link::sentence || before == Link::other) next.link = before;
+      if (before == Link::comma_and_conjunction && link != Link::other) next.link = before;
+      if (comma && conjunction) next.link = Link::comma_and_conjunction;
+    }
     sentence_.clauses.push_back(next);
   }
 
@@ -263,10 +279,21 @@ class Parser {
       case WordKind::keep:
         keep();
         break;
+      case WordKind::keep_size:
+        keep();
+        now().same_size = true;
+        break;
       case WordKind::fixed:
       case WordKind::same_size:
         now().same_size = now().same_size || word.kind == WordKind::same_size;
-        if (!now().keeps) unused(item);
+        now().fixed.push_back(item.first);
+        break;
+      case WordKind::rest:
+        now().everything_else = true;
+        break;
+      case WordKind::nothing_else:
+        if (!is_empty(now())) begin(Clause::Begins::conjunction);
+        now().everything_else = now().keeps = true;
         break;
       case WordKind::too:
         if (next_is(WordKind::adjective) || next_is(WordKind::change)) {
@@ -275,6 +302,8 @@ class Parser {
         }
         break;
       case WordKind::conjunction:
+        begin(Clause::Begins::conjunction, link_of(tokens_[item.first].said));
+        break;
       case WordKind::but:
       case WordKind::with:
         begin(Clause::Begins::conjunction);
@@ -291,7 +320,7 @@ class Parser {
       case WordKind::to:
         to_ = to_ || next_is(WordKind::number);
         break;
-      case WordKind::exact:
+      case WordKind::exactly:
         exact_ = true;
         break;
       case WordKind::of:
@@ -339,6 +368,7 @@ class Parser {
       begin(Clause::Begins::conjunction);
     }
     now().keeps = true;
+    now().named_before = !now().nouns.empty() || now().whole || now().everything_else;
   }
 
   std::vector<Item> items_;  ///< without fillers

@@ -60,8 +60,13 @@ struct Clause {
   bool only = false;
   /// "keep the legs fixed": other clauses' edits leave the nouns be.
   bool keeps = false, same_size = false;
+  bool named_before = false;     ///< what it keeps comes before the verb: "the legs stay", not "keep the legs"
+  bool everything_else = false;  ///< "the rest": what no other clause names
   enum class Begins { first, conjunction, so, by, on } begins = Begins::first;
-  std::string fault;  ///< why it cannot be read; empty when it can
+  /// What stands between it and the clause before it. `other`: "but", "while", "with" and what begins differently.
+  enum class Link { sentence, comma, conjunction, comma_and_conjunction, other } link = Link::sentence;
+  std::vector<std::size_t> fixed;  ///< tokens that say "as it is"
+  std::string fault;               ///< why it cannot be read; empty when it can
 };
 
 struct Sentence {
@@ -69,6 +74,10 @@ struct Sentence {
   std::vector<std::size_t> unused;  ///< tokens that say something which no clause takes up
   std::string fault;
 };
+
+/// Lets what is said to stay hold for every noun of its list: "the legs and the seat stay", "keep the legs and the seat".
+/// A noun of which it is not clear whether it changes or stays gets a fault.
+void spread_keeps(Sentence& sentence);
 
 Sentence parse(const std::vector<Item>& items, const std::vector<Token>& tokens, const PartNames& names);
 

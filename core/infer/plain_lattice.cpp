@@ -97,7 +97,11 @@ class Lattice {
     std::vector<Item> items = listed(at, text);
     const bool unit = !items.empty() && is_unit(items.front().word);
     if (!unit) {
-      for (Item& item : nouns(at, text)) items.push_back(std::move(item));
+      // "the rest" is no "crest".
+      const bool is_rest = !items.empty() && items.front().word.kind == WordKind::rest;
+      for (Item& item : nouns(at, text)) {
+        if (!is_rest || item.distance < 2) items.push_back(std::move(item));
+      }
     }
     return items;
   }

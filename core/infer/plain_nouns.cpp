@@ -1,4 +1,4 @@
-// Which parts nouns with their sides mean, and what shall be kept: plain_seed.h.
+// Which parts nouns with their sides mean: plain_seed.h.
 #include <algorithm>
 #include <cmath>
 
@@ -48,46 +48,6 @@ std::vector<PartIndex> chosen(const ShapeFacts& facts, const Noun& noun) {
   }
   if (noun.middle) return {};
   return parts;
-}
-
-std::string keep(const ShapeFacts& facts, const Clause& clause, PlainEdit& edit) {
-  if (!clause.fault.empty()) return clause.fault;
-  if (clause.change != Change::none || clause.how_much || clause.where) return "it is not clear what shall stay";
-  const Shape& shape = facts.shape();
-  std::set<PartIndex> changed;
-  double lifted_above = 2;  // of what goes up, the middle; nothing does
-  for (const Statement& s : edit.statements) {
-    const PartIndex part = *part_of(shape, s);
-    changed.insert(part);
-    const auto* way = s.direction ? std::get_if<Vec3>(&*s.direction) : nullptr;
-    const bool upright = way != nullptr && main_axis_of(*way) == 1;
-    if (upright && (s.op == Op::scale_1d || s.op == Op::translate))
-      lifted_above = std::min(lifted_above, facts.extent(part).centre()[1]);
-  }
-  std::vector<PartIndex> parts;
-  for (const Noun& noun : clause.nouns) {
-    const auto some = chosen(facts, noun);
-    parts.insert(parts.end(), some.begin(), some.end());
-  }
-  const bool whole = parts.empty() && clause.whole;
-  if (whole) {
-    if (lifted_above > 1.5) return "the whole cannot both change and stay";
-    for (const PartIndex p : facts.active()) {
-      if (changed.count(p) == 0 && facts.extent(p).centre()[1] > lifted_above) parts.push_back(p);
-    }
-  }
-  if (parts.empty()) return "it does not say what shall stay";
-  for (const PartIndex p : parts) {
-    const auto twin = facts.mirrored(facts.active());
-    const bool in_seed = std::any_of(twin.begin(), twin.end(), [&](const std::vector<PartIndex>& set) {
-      return std::count(set.begin(), set.end(), p) > 0 &&
-             std::any_of(set.begin(), set.end(), [&](PartIndex q) { return changed.count(q) > 0; });
-    });
-    if (in_seed) return name_of(shape, p) + " cannot both change and stay";
-    const bool carried = facts.extent(p).centre()[1] > lifted_above;
-    edit.hints[shape.parts[p].id] = clause.same_size || carried ? Hint::translate : Hint::keep_fixed;
-  }
-  return "";
 }
 
 }  // namespace parsel

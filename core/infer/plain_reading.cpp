@@ -190,15 +190,6 @@ Way take(const ShapeFacts& facts, const std::vector<Token>& tokens, const std::v
   return way;
 }
 
-/// The edit as the rest of the core takes it; nothing when resolve() refuses it.
-std::optional<EditRequest> request_of(const Shape& shape, const PlainEdit& edit) {
-  if (edit.statements.empty()) return std::nullopt;
-  EditRequest request{edit.statements, {}, edit.hints};
-  for (const RelationIndex r : edit.loose) request.disabled.push_back(shape.relations[r].id);
-  if (!resolve(request, shape).ok()) return std::nullopt;
-  return request;
-}
-
 std::string key(const Shape& shape, const PlainEdit& edit) {
   const auto request = request_of(shape, edit);
   json rest = to_json(*request);

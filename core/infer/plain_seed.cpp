@@ -214,6 +214,14 @@ class Meaning {
 
 }  // namespace
 
+std::optional<EditRequest> request_of(const Shape& shape, const PlainEdit& edit) {
+  if (edit.statements.empty()) return std::nullopt;
+  EditRequest request{edit.statements, {}, edit.hints};
+  for (const RelationIndex r : edit.loose) request.disabled.push_back(shape.relations[r].id);
+  if (!resolve(request, shape).ok()) return std::nullopt;
+  return request;
+}
+
 Meant mean(const ShapeFacts& facts, const Clause& clause, const std::vector<PartIndex>& pointed) {
   return Meaning(facts, clause, pointed).run();
 }

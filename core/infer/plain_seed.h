@@ -35,6 +35,9 @@ struct Meant {
   std::string fault;  ///< a clause without a full stop; with edits: why none of them is certain
 };
 
+/// The edit as the rest of the core takes it; nothing when resolve() refuses it.
+std::optional<EditRequest> request_of(const Shape& shape, const PlainEdit& edit);
+
 /// `clause` has its change and, where it inherits them from another one, its nouns. `pointed`: what "it" is.
 Meant mean(const ShapeFacts& facts, const Clause& clause, const std::vector<PartIndex>& pointed);
 

@@ -20,16 +20,22 @@ const std::map<std::string_view, Change> sizes = {
     {"raise", Change::raise},   {"count", Change::count},   {"spacing", Change::spacing}};
 
 const std::map<std::string_view, WordKind> plain_kinds = {
-    {"filler", WordKind::filler},   {"degree", WordKind::filler},   {"whole", WordKind::whole},
-    {"more", WordKind::more},       {"less", WordKind::less},       {"many", WordKind::many},
-    {"middle", WordKind::middle},   {"only", WordKind::only},       {"keep", WordKind::keep},
-    {"fixed", WordKind::fixed},     {"not", WordKind::negation},    {"and", WordKind::conjunction},
-    {"but", WordKind::but},         {"with", WordKind::with},       {"so", WordKind::so},
-    {"by", WordKind::by},           {"of", WordKind::of},           {"at", WordKind::at},
-    {"to", WordKind::to},           {"as", WordKind::as},           {"exact", WordKind::exact},
-    {"percent", WordKind::percent}, {"degrees", WordKind::degrees}, {"same_size", WordKind::same_size},
-    {"without", WordKind::keep},    {"follow", WordKind::follow},   {"too", WordKind::too},
-    {"it", WordKind::whole},        {"outside", WordKind::unknown}};
+    {"filler", WordKind::filler},   {"degree", WordKind::filler},
+    {"whole", WordKind::whole},     {"more", WordKind::more},
+    {"less", WordKind::less},       {"many", WordKind::many},
+    {"middle", WordKind::middle},   {"only", WordKind::only},
+    {"keep", WordKind::keep},       {"fixed", WordKind::fixed},
+    {"not", WordKind::negation},    {"and", WordKind::conjunction},
+    {"but", WordKind::but},         {"with", WordKind::with},
+    {"so", WordKind::so},           {"by", WordKind::by},
+    {"of", WordKind::of},           {"at", WordKind::at},
+    {"to", WordKind::to},           {"as", WordKind::as},
+    {"exact", WordKind::exactly},   {"percent", WordKind::percent},
+    {"degrees", WordKind::degrees}, {"same_size", WordKind::same_size},
+    {"without", WordKind::keep},    {"follow", WordKind::follow},
+    {"too", WordKind::too},         {"it", WordKind::whole},
+    {"outside", WordKind::unknown}, {"keep_size", WordKind::keep_size},
+    {"rest", WordKind::rest},       {"nothing_else", WordKind::nothing_else}};
 
 /// The keys of a list: "width+" for wider, "width-", "width=" for wide, "width~" for its opposite, "side -x", "keep".
 Word meaning(std::string_view key) {

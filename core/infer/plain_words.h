@@ -47,9 +47,12 @@ enum class WordKind {
   factor,  ///< "twice": value
   only,
   keep,
+  keep_size,  ///< "keep their size": of what was named before
   fixed,
   same_size,
-  too,  ///< "too wide": less of it is wanted
+  rest,          ///< "everything else"
+  nothing_else,  ///< "nothing else changes": the rest stays
+  too,           ///< "too wide": less of it is wanted
   negation,
   follow,       ///< "let the fence follow": what others do by themselves
   conjunction,  ///< "and", ","
@@ -61,7 +64,7 @@ enum class WordKind {
   at,
   to,
   as,
-  exact,
+  exactly,
   unknown,
 };
 

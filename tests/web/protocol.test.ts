@@ -69,6 +69,22 @@ describe('the boundary between the page and the core', () => {
     expect(Buffer.from(edited.buffers[0] as Uint8Array).equals(Buffer.from(file))).toBe(false);
   });
 
+  it('offers sliders, cleanly propagated, and stretches their ranges', () => {
+    const { message, buffers } = invoke('gallery', {});
+    const { models } = (message as { result: { models: { id: string }[] } }).result;
+    const table = models.findIndex(({ id }) => id === 'dining_table');
+    invoke('open', { name: 'dining_table', external: [] }, buffers.slice(table, table + 1));
+    const resultOf = (reply: unknown) => (reply as { result: unknown }).result;
+    const { offers } = v.parse(methodSchemas.offers.result, resultOf(invoke('offers', {}).message));
+    const width = offers.find(({ title }) => title === 'Width');
+    const found = invoke('propagate_clean', { edit: width?.edit }).message;
+    const { program } = v.parse(methodSchemas.propagate_clean.result, resultOf(found));
+    const rangeOf = (one: unknown) =>
+      (one as { layers: { parameter: { max: number } }[] }).layers[0]?.parameter.max ?? 0;
+    const extended = invoke('extend', { program, layer: 0, to: 1 }).message;
+    expect(rangeOf(v.parse(methodSchemas.extend.result, resultOf(extended)).program)).toBeGreaterThan(rangeOf(program));
+  });
+
   it('makes prompts of a request and reads the replies', () => {
     const { buffers } = invoke('gallery', {});
     invoke('open', { name: 'chair', external: [] }, [buffers[0] as Uint8Array]);
@@ -126,7 +142,9 @@ describe('the boundary between the page and the core', () => {
     ['an equation that is none', 'solve', { equation: '2*(y', unknown: 'y' }],
     ['an unknown that is no name', 'solve', { equation: '2*y', unknown: '2' }],
     ['an edit of no kind', 'propagate', { edit: 7 }],
+    ['an edit of no kind, cleanly', 'propagate_clean', { edit: 7 }],
     ['a program of no kind', 'apply', { program: {}, values: [] }],
+    ['a program of no kind, stretched', 'extend', { program: {}, layer: 0, to: 1 }],
     ['a model that is none', 'open', { name: 'x', external: [] }],
     ['a request that is empty', 'prompts', { request: ' ', mentioned: [] }],
     ['replies of no kind', 'read_replies', { request: 'x', replies: 7 }],

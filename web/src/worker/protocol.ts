@@ -154,6 +154,31 @@ export const methodSchemas = {
     parameters: v.strictObject({ edit: v.unknown() }),
     result: v.strictObject({ program: v.unknown(), trace: v.unknown() }),
   },
+  /** What geometry and labels alone offer of the opened model: seed edits, each with a title. Not propagated. */
+  offers: {
+    parameters: v.strictObject({}),
+    result: v.strictObject({
+      offers: v.array(
+        v.strictObject({
+          title: v.string(),
+          edit: v.looseObject({ format: v.literal('parsel/edit'), version: v.literal(1) }),
+        }),
+      ),
+    }),
+  },
+  /**
+   * As propagate, but over the part of the range in which nothing comes apart, and looked at by the independent checker;
+   * refused where that leaves no slider.
+   */
+  propagate_clean: {
+    parameters: v.strictObject({ edit: v.unknown() }),
+    result: v.strictObject({ program: v.unknown(), trace: v.unknown() }),
+  },
+  /** A program with the range of a layer (an index) stretched to a value, or as far towards it as everything holds. */
+  extend: {
+    parameters: v.strictObject({ program: v.unknown(), layer: v.number(), to: v.number() }),
+    result: v.strictObject({ program: v.unknown() }),
+  },
   /** The opened model with a program applied: one buffer, a GLB; with an animation, or a morph target a slider. */
   apply: {
     parameters: v.strictObject({
