@@ -5,6 +5,7 @@ import { jsonLimits, parseJson } from '../program/json';
 import { layerSchema, limits, programSchema } from '../program/schema';
 import type { CameraPose } from '../scene/camera';
 import type { Document } from '../session/document';
+import { extrasEntries, extrasOf, salvageExtras } from './extras';
 
 const id = v.pipe(v.string(), v.minLength(1), v.maxBytes(limits.nameLength));
 const finite = v.pipe(v.number(), v.finite(), v.minValue(-1e6), v.maxValue(1e6));
@@ -46,6 +47,7 @@ const savedSchema = v.strictObject({
   /** Labels given in place of the file's own, by "node:<index>/<primitive>". */
   labels: v.exactOptional(v.pipe(v.array(label), v.maxLength(limits.statements))),
   view: v.exactOptional(viewSchema),
+  ...extrasEntries,
 });
 export type Saved = v.InferOutput<typeof savedSchema>;
 
@@ -81,6 +83,7 @@ export function save(document: Document, view?: CameraPose): Saved {
     hidden: [...hidden],
     names: [...names],
     ...(labels.size > 0 ? { labels: [...labels] } : {}),
+    ...extrasOf(document),
     ...(view === undefined ? {} : { view }),
   };
 }
@@ -134,6 +137,11 @@ function salvage(json: Json): Work | null {
   const labels = json['labels'] === undefined ? [] : some(listOf(json['labels'], 'labels'), label, 'labels');
   const view = v.safeParse(viewSchema, json['view']);
   if (!view.success && json['view'] !== undefined) lost.push('the view');
+  const [extras, damaged] = salvageExtras(
+    json,
+    layers.map(({ index }) => index),
+  );
+  lost.push(...damaged);
   const { name, sha256 } = model.output;
   const saved: Saved = {
     format: 'parsel/session',
@@ -150,6 +158,7 @@ function salvage(json: Json): Work | null {
     names: some(listOf(json['names'], 'names'), renamed, 'names'),
     ...(labels.length > 0 ? { labels } : {}),
     ...(view.success ? { view: view.output } : {}),
+    ...extras,
   };
   return { saved, lost: [...new Set(lost)] };
 }

@@ -4,6 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
 import type { Insets } from '../scene/camera';
 import { readDropped } from '../session/files';
+import { lookOnOpening } from '../session/page_offers';
 import { document } from '../session/session';
 import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
@@ -39,7 +40,7 @@ export function App() {
   const dropping = useSignal(false);
 
   useEffect(() => {
-    const stops = [listenForShortcuts(), welcome(), listenForDrops((over) => (dropping.value = over))];
+    const stops = [listenForShortcuts(), welcome(), lookOnOpening(), listenForDrops((over) => (dropping.value = over))];
     const onChange = () => {
       isPhone.value = phone.matches;
     };
