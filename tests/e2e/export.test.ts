@@ -106,7 +106,10 @@ describe('an exported model', () => {
     const path = await download(page, 'Selected part only');
     await reopen(path, async (fresh) => {
       expect((await shapeOf(fresh)).parts.map(({ id }) => id)).toEqual(['seat']);
-      expect(await fresh.locator('.dimensions').textContent()).toMatch(/^62\.5 × 4 × 40/);
+      const lengths = ['width', 'height', 'depth'].map((name) =>
+        fresh.getByLabel(`${name}, type a length`, { exact: true }).inputValue(),
+      );
+      expect(await Promise.all(lengths)).toEqual(['62.5', '4', '40']);
     });
   });
 

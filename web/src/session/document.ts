@@ -32,6 +32,20 @@ export interface EditInput {
 export const hints = ['translate', 'rotate', 'scale', 'shear', 'change_count', 'change_delta', 'keep_fixed'] as const;
 export type Hint = (typeof hints)[number];
 
+/** Of a preset or a group, in characters. */
+export const nameLimit = 80;
+
+/** Units that lengths can be shown and typed in. */
+export const lengthUnits = ['mm', 'cm', 'm', 'in'] as const;
+export type LengthUnit = (typeof lengthUnits)[number];
+
+/** Named positions of sliders. */
+export interface Preset {
+  readonly name: string;
+  /** Values by key of their layer; layers that came later, or are gone, are not in it. */
+  readonly values: ReadonlyMap<number, number>;
+}
+
 /** A layer of the program with what the page adds to it. */
 export interface LayerEntry {
   /** Unique in a session. */
@@ -39,6 +53,8 @@ export interface LayerEntry {
   readonly layer: Layer;
   readonly enabled: boolean;
   readonly value: number;
+  /** Name of the group of cards that it is shown in. */
+  readonly group?: string;
   /** How propagation found it. Lasts as long as the page: neither links nor autosave keep it. */
   readonly trace?: Trace;
   /** What the layer was where it last fitted, while labels have taken that shape away. Lasts as long as the page. */
@@ -52,6 +68,9 @@ export interface Document {
   readonly hidden: ReadonlySet<string>;
   /** Names that were given to parts here, by id. */
   readonly names: ReadonlyMap<string, string>;
+  /** Unit of all lengths; absent: whichever suits each. */
+  readonly unit?: LengthUnit;
+  readonly presets?: readonly Preset[];
 }
 
 export const emptyDocument: Document = { model: null, layers: [], hidden: new Set(), names: new Map() };

@@ -25,6 +25,10 @@ export interface Evaluation {
   sliderValue(entry: LayerEntry): number;
   /** One step of a slider: evaluates closures, touches neither the document nor the core. */
   slide(key: number, value: number): void;
+  /** Whether the model is shown as it was, with every slider at 0; the sliders stay where they are. */
+  readonly restIsShown: ReadonlySignal<boolean>;
+  /** Until it is told otherwise, or a slider moves. */
+  showRest(on: boolean): void;
 }
 
 const fits = new WeakMap<Layer, { readonly shape: Shape; readonly text: string | null }>();
@@ -55,6 +59,7 @@ function compile(model: OpenModel | null, active: readonly LayerEntry[]): Compil
 export function createEvaluation(document: ReadonlySignal<Document>): Evaluation {
   const draft = signal<LayerEntry | null>(null);
   const step = signal(0);
+  const restIsShown = signal(false);
   const liveValues = new Map<number, number>();
   let values = new Float64Array(0);
   let lastStructure: readonly unknown[] = [];
@@ -83,6 +88,7 @@ export function createEvaluation(document: ReadonlySignal<Document>): Evaluation
     const layers = [...document.value.layers, ...(draft.value === null ? [] : [draft.value])];
     const now = compiled.value;
     liveValues.clear();
+    restIsShown.value = false;
     if (now.kind === 'ready') {
       values = Float64Array.from(now.keys, (key) => layers.find((entry) => entry.key === key)?.value ?? 0);
       now.evaluator.evaluate(values);
@@ -104,7 +110,16 @@ export function createEvaluation(document: ReadonlySignal<Document>): Evaluation
       const { min, max } = now.evaluator.parameters[at] ?? { min: 0, max: 0 };
       values[at] = Math.min(max, Math.max(min, value));
       liveValues.set(key, values[at] as number);
+      restIsShown.value = false;
       now.evaluator.evaluate(values);
+      step.value = step.peek() + 1;
+    },
+    restIsShown,
+    showRest(on) {
+      const now = compiled.peek();
+      if (now.kind !== 'ready' || on === restIsShown.peek()) return;
+      restIsShown.value = on;
+      now.evaluator.evaluate(on ? values.map(() => 0) : values);
       step.value = step.peek() + 1;
     },
   };

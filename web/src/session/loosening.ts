@@ -15,6 +15,9 @@ export interface Loosening {
   /** What the slider reads where the relation comes apart, downwards and upwards of rest; null where it does not. */
   readonly below: number | null;
   readonly above: number | null;
+  /** The slider's values there. */
+  readonly belowAt: number | null;
+  readonly aboveAt: number | null;
   /** At rest. */
   readonly rest: number;
   readonly measure: Measure;
@@ -28,6 +31,18 @@ export function looseningOf(shape: Shape, layer: Layer, relation: ShapeRelation)
   found.set(layer, known);
   if (!known.has(relation)) known.set(relation, search(shape, layer, relation));
   return known.get(relation) ?? null;
+}
+
+/** Where on the slider the first of the relations that an edit does not keep comes apart, to both sides of 0. */
+export function cleanEnds(shape: Shape, layer: Layer): { readonly min: number; readonly max: number } {
+  let { min, max } = layer.parameter;
+  for (const { id, status } of layer.relations) {
+    const relation = status === 'broken' ? shape.relations.find((other) => other.id === id) : undefined;
+    const found = relation === undefined ? null : looseningOf(shape, layer, relation);
+    min = Math.max(min, found?.belowAt ?? min);
+    max = Math.min(max, found?.aboveAt ?? max);
+  }
+  return { min, max };
 }
 
 function search(shape: Shape, layer: Layer, relation: ShapeRelation): Loosening | null {
@@ -48,12 +63,17 @@ function search(shape: Shape, layer: Layer, relation: ShapeRelation): Loosening 
       evaluator.evaluate([(end * i) / samples]);
       // Once the number of instances changes, they are copies at places of their own: there is nothing to come apart.
       if (groups.some(([group, count]) => evaluator.groups[group]?.count !== count)) continue;
-      if (off(evaluator) > slack) return reading((end * i) / samples);
+      if (off(evaluator) > slack) return (end * i) / samples;
     }
     return null;
   };
-  const [below, above] = [firstBeyond(min), firstBeyond(max)];
-  return below === null && above === null ? null : { below, above, rest: reading(0), measure };
+  const [belowAt, aboveAt] = [firstBeyond(min), firstBeyond(max)];
+  if (belowAt === null && aboveAt === null) return null;
+  const [below, above] = [belowAt, aboveAt].map((at) => (at === null ? null : reading(at))) as [
+    number | null,
+    number | null,
+  ];
+  return { below, above, belowAt, aboveAt, rest: reading(0), measure };
 }
 
 /** Index and number of instances of the groups that a relation's parts are instances of. */

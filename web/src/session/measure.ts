@@ -1,6 +1,7 @@
 // Lengths for people: the size of the whole and of parts, and what a layer's slider changes, in the model's metres.
 import type { Evaluator } from '../program/compile';
 import { type Axis, isGeometric, isGroup, type Shape, type Statement, type Vec3 } from '../program/types';
+import type { LengthUnit } from './document';
 
 /** Width (x), height (y) and depth (z) in metres. */
 export type Size = readonly [number, number, number];
@@ -211,37 +212,51 @@ const trimmed = (value: number, digits: number) =>
     .replace(/^-0$/, '0')
     .replace(/^-/, '−');
 
-/** The unit in which lengths about as large as `metres` are shown, and how many digits. */
-function lengthUnit(metres: number): { unit: string; factor: number; digits: number } {
+const lengthFactors: Readonly<Record<LengthUnit, { factor: number; digits: number }>> = {
+  m: { factor: 1, digits: 3 },
+  cm: { factor: 100, digits: 1 },
+  mm: { factor: 1000, digits: 1 },
+  in: { factor: 1 / 0.0254, digits: 2 },
+};
+
+/** The unit in which lengths about as large as `metres` are shown unless one was chosen, and how many digits. */
+function lengthUnit(metres: number, chosen?: LengthUnit): { unit: LengthUnit; factor: number; digits: number } {
+  if (chosen !== undefined) return { unit: chosen, ...lengthFactors[chosen] };
   const size = Math.abs(metres);
   if (size >= 3) return { unit: 'm', factor: 1, digits: 2 };
   if (size >= 0.02 || size === 0) return { unit: 'cm', factor: 100, digits: 1 };
   return { unit: 'mm', factor: 1000, digits: size < 1e-3 ? 3 : 1 };
 }
 
-export function formatSize(size: Size): string {
-  const { unit, factor, digits } = lengthUnit(Math.max(...size));
-  return `${size.map((metres) => trimmed(metres * factor, Math.min(digits, 1) || digits)).join(' × ')} ${unit}`;
-}
-
 /** What decides the unit of two values that are shown beside each other. */
 export const larger = (a: number, b: number): number => Math.max(Math.abs(a), Math.abs(b));
 
-/** A value of a measure with its unit; `like` decides the unit, so that before and after read alike. */
-export function formatMeasure(what: Measure['what'], value: number, like = value): string {
+/** Three lengths in one unit, without it, and the unit. */
+export function formatLengths(
+  size: Size,
+  chosen?: LengthUnit,
+): { readonly lengths: readonly string[]; unit: LengthUnit } {
+  const { unit, factor, digits } = lengthUnit(Math.max(...size), chosen);
+  const shown = chosen === undefined ? Math.min(digits, 1) || digits : digits;
+  return { lengths: size.map((metres) => trimmed(metres * factor, shown)), unit };
+}
+
+/** A value of a measure with its unit: the chosen one, else one that suits `like`, so that before and after read alike. */
+export function formatMeasure(what: Measure['what'], value: number, like = value, chosen?: LengthUnit): string {
   if (what === 'angle') return `${trimmed((value * 180) / Math.PI, 1)}°`;
   if (what === 'count') return String(value);
-  const { unit, factor, digits } = lengthUnit(like);
+  const { unit, factor, digits } = lengthUnit(like, chosen);
   return `${trimmed(value * factor, digits)} ${unit}`;
 }
 
-/** What someone typed for a measure: "54", "54 cm", "0.54m", "12°". Null when it is no number. */
-export function parseMeasure(what: Measure['what'], text: string, like: number): number | null {
-  const match = /^\s*([-+]?[\d.,]+)\s*(m|cm|mm|°|deg)?\s*$/.exec(text.replace('−', '-'));
+/** What someone typed for a measure: "54", "54 cm", "0.54m", "21 in", "12°". Null when it is no number. */
+export function parseMeasure(what: Measure['what'], text: string, like: number, chosen?: LengthUnit): number | null {
+  const match = /^\s*([-+]?[\d.,]+)\s*(m|cm|mm|in|"|″|°|deg)?\s*$/.exec(text.replace('−', '-'));
   const number = Number((match?.[1] ?? '').replace(',', '.'));
   if (match === null || !Number.isFinite(number)) return null;
   if (what === 'angle') return (number * Math.PI) / 180;
   if (what === 'count') return number;
-  const factor = { m: 1, cm: 100, mm: 1000 }[match[2] ?? ''] ?? lengthUnit(like).factor;
+  const said = match[2] === '"' || match[2] === '″' ? 'in' : match[2];
+  const factor = lengthFactors[said as LengthUnit]?.factor ?? lengthUnit(like, chosen).factor;
   return number / factor;
 }

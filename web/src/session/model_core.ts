@@ -43,6 +43,12 @@ export interface ModelCore {
   split(files: ModelFiles, how: Parameters<'split'>, options: Options): Promise<SplitFiles>;
   /** One layer, from a seed edit. */
   propagate(model: OpenModel, edit: EditInput, options: Options): Promise<Propagation>;
+  /** The same over the part of the range where nothing comes apart; refused where that is not worth a slider. */
+  propagateClean(model: OpenModel, edit: EditInput, options: Options): Promise<Propagation>;
+  /** What geometry and labels alone offer of the model; not yet known to be clean. */
+  offers(model: OpenModel): Promise<MethodResult<'offers'>['offers']>;
+  /** The program with a layer's range stretched to `to`, or as far towards it as everything holds. */
+  extend(model: OpenModel, program: Program, layer: number, to: number): Promise<Program>;
   /** The model's file with the program applied. */
   apply(model: OpenModel, program: Program, options: ExportOptions): Promise<Exported>;
   /** What a request means, read without a language model. `mentioned` as below. */
@@ -105,6 +111,17 @@ export function modelCore(client: CoreClient): ModelCore {
     async propagate(model, edit, options) {
       const { result } = await client.call('propagate', { edit }, { ...options, needs: stateOf(model) });
       return result as Propagation;
+    },
+    async propagateClean(model, edit, options) {
+      const { result } = await client.call('propagate_clean', { edit }, { ...options, needs: stateOf(model) });
+      return result as Propagation;
+    },
+    async offers(model) {
+      return (await client.call('offers', {}, { needs: stateOf(model) })).result.offers;
+    },
+    async extend(model, program, layer, to) {
+      const { result } = await client.call('extend', { program, layer, to }, { needs: stateOf(model) });
+      return result.program as Program;
     },
     async readPlainly(model, request, mentioned) {
       const needs = stateOf(model);

@@ -1,6 +1,7 @@
 // Opening: a model by any route, and saved work on one. The work at hand stays until the new one is ready.
 import { computed, signal } from '@preact/signals';
 import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
+import { withExtras } from '../share/extras';
 import { lostWords, type Saved, type Work } from '../share/saved';
 import { converted } from './convert';
 import { decompressed } from './decompress';
@@ -123,12 +124,13 @@ function documentOf(model: OpenModel, saved: Saved): Document {
     newEntry(layer, layer.parameter.value, !off.has(i)),
   );
   const known = new Set(model.shape.parts.map(({ id }) => id));
-  return {
+  const document: Document = {
     model,
     layers,
     hidden: new Set(saved.hidden.filter((id) => known.has(id))),
     names: new Map(saved.names.filter(([id]) => known.has(id))),
   };
+  return withExtras(document, saved);
 }
 
 async function openFrom(

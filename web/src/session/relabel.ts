@@ -9,6 +9,7 @@ export function carryOver(document: Document, model: OpenModel): Document {
   if (before === undefined) return { ...document, model };
   const part = renaming(before, model.shape, partKeys);
   return {
+    ...document,
     model,
     layers: document.layers.map((entry) => carryEntry(entry, before, model.shape)),
     hidden: new Set([...document.hidden].map(part)),
@@ -17,7 +18,7 @@ export function carryOver(document: Document, model: OpenModel): Document {
 }
 
 /** A layer that rested because it did not fit comes from the shape that it did fit, so that it can come back. */
-function carryEntry({ key, layer, enabled, value, home }: LayerEntry, before: Shape, after: Shape): LayerEntry {
+function carryEntry({ key, layer, enabled, value, group, home }: LayerEntry, before: Shape, after: Shape): LayerEntry {
   const from = home ?? { shape: before, layer };
   const part = renaming(from.shape, after, partKeys);
   const relation = renaming(from.shape, after, relationKeys);
@@ -31,7 +32,8 @@ function carryEntry({ key, layer, enabled, value, home }: LayerEntry, before: Sh
       .filter(({ id }) => known.has(id)),
   };
   const rests = misfit(after, carried) !== null;
-  return { key, layer: carried, enabled, value, ...(rests ? { home: from } : {}) };
+  const grouped = group === undefined ? {} : { group };
+  return { key, layer: carried, enabled, value, ...grouped, ...(rests ? { home: from } : {}) };
 }
 
 type Rename = (id: string) => string;

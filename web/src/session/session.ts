@@ -17,6 +17,8 @@ export interface Session extends Evaluation, Layers, Parts, Tasks {
   redo(): void;
   /** Of the step that made the present state. */
   mark(): Mark;
+  /** Changes the document as one step of the history. */
+  change(label: string, edit: (document: Document) => Document): void;
   /** Puts a document in place of the present one, as one step that undo takes back. */
   replaceDocument(next: Document, label: string): void;
   /** Propagates a seed edit through the shape; null, and a sentence, when that fails or the model is another by then. */
@@ -54,6 +56,7 @@ export function createSession(): Session {
     undo: () => history.undo(),
     redo: () => history.redo(),
     mark: () => history.mark,
+    change: (label, edit) => history.push(label, edit(document.peek())),
     replaceDocument(next, label) {
       batch(() => {
         parts.selection.value = null;
@@ -76,6 +79,7 @@ export function createSession(): Session {
 export const session = createSession();
 export const {
   addProgram,
+  change,
   compiled,
   document,
   draft,
@@ -95,6 +99,7 @@ export const {
   renameLayer,
   renamePart,
   replaceDocument,
+  restIsShown,
   rewriteLayer,
   run,
   say,
@@ -107,6 +112,7 @@ export const {
   settle,
   showAll,
   shownLayers,
+  showRest,
   slide,
   sliderValue,
   step,

@@ -40,7 +40,7 @@ export function aimAt(key: number, target: Target): void {
   const found = stepwise ? estimate : solveLayer(entry, measure, wanted);
   setValue(key, found);
   const [reached = wanted] = readLayer(entry, measure, [found]);
-  const show = (value: number) => formatMeasure(measure.what, value, larger(rest, wanted));
+  const show = (value: number) => formatMeasure(measure.what, value, larger(rest, wanted), document.peek().unit);
   if (show(reached) !== show(wanted))
     say(`The slider goes no further than ${show(reached)}; ${show(wanted)} was asked for.`);
 }

@@ -5,6 +5,7 @@ import { jsonLimits, parseJson } from '../program/json';
 import { layerSchema, limits, programSchema } from '../program/schema';
 import type { CameraPose } from '../scene/camera';
 import type { Document } from '../session/document';
+import { extrasEntries, extrasOf, salvageExtras } from './extras';
 
 const id = v.pipe(v.string(), v.minLength(1), v.maxBytes(limits.nameLength));
 const finite = v.pipe(v.number(), v.finite(), v.minValue(-1e6), v.maxValue(1e6));
@@ -53,6 +54,7 @@ const savedSchema = v.strictObject({
   /** How the parts were told apart before all else; the hash is that of the result. */
   split: v.exactOptional(splitSchema),
   view: v.exactOptional(viewSchema),
+  ...extrasEntries,
 });
 export type Saved = v.InferOutput<typeof savedSchema>;
 
@@ -90,6 +92,7 @@ export function save(document: Document, view?: CameraPose): Saved {
     names: [...names],
     ...(labels.size > 0 ? { labels: [...labels] } : {}),
     ...(split === undefined ? {} : { split: { by: split.by, fine: split.fine } }),
+    ...extrasOf(document),
     ...(view === undefined ? {} : { view }),
   };
 }
@@ -145,6 +148,11 @@ function salvage(json: Json): Work | null {
   const split = v.safeParse(splitSchema, json['split']);
   if (!split.success && json['split'] !== undefined) lost.push('how the parts were told apart');
   if (!view.success && json['view'] !== undefined) lost.push('the view');
+  const [extras, damaged] = salvageExtras(
+    json,
+    layers.map(({ index }) => index),
+  );
+  lost.push(...damaged);
   const { name, sha256 } = model.output;
   const saved: Saved = {
     format: 'parsel/session',
@@ -162,6 +170,7 @@ function salvage(json: Json): Work | null {
     ...(labels.length > 0 ? { labels } : {}),
     ...(split.success ? { split: split.output } : {}),
     ...(view.success ? { view: view.output } : {}),
+    ...extras,
   };
   return { saved, lost: [...new Set(lost)] };
 }

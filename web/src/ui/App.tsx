@@ -4,6 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
 import type { Insets } from '../scene/camera';
 import { readDropped } from '../session/files';
+import { lookOnOpening } from '../session/page_offers';
 import { document } from '../session/session';
 import { suggestions } from '../session/suggestions';
 import { ApartSlider } from './ApartSlider';
@@ -42,7 +43,7 @@ export function App() {
   const dropping = useSignal(false);
 
   useEffect(() => {
-    const stops = [listenForShortcuts(), welcome(), listenForDrops((over) => (dropping.value = over))];
+    const stops = [listenForShortcuts(), welcome(), lookOnOpening(), listenForDrops((over) => (dropping.value = over))];
     const onChange = () => {
       isPhone.value = phone.matches;
     };

@@ -7,9 +7,11 @@ import { loadGallery, type Suggestion } from '../session/gallery';
 import { playOnce } from '../session/play';
 import { compiled, document, propagate, task } from '../session/session';
 import { showText } from './actions';
+import { CardList } from './CardList';
+import { CardTools } from './CardTools';
 import { HandPanel } from './HandPanel';
 import { Icon } from './Icon';
-import { LayerCard } from './LayerCard';
+import { OffersPanel } from './OffersPanel';
 import { useRecorded } from './recorded';
 import { SuggestPanel } from './SuggestPanel';
 import { Together } from './Together';
@@ -43,15 +45,15 @@ export function EditsPanel({ pickKind }: EditsProps) {
           These edits do not go together: {state.text}
         </p>
       )}
+      <CardTools />
       <ul class="cards" ref={cards}>
-        {layers.map((entry, i) => (
-          <LayerCard key={entry.key} entry={entry} first={i === 0} last={i === layers.length - 1} />
-        ))}
+        <CardList layers={layers} />
       </ul>
       {layers.length > 0 && <Together />}
       <SuggestPanel />
       {pickKind.value === null ? (
         <>
+          <OffersPanel />
           <Suggestions />
           <div class="row hand-buttons">
             <button

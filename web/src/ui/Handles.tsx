@@ -260,9 +260,9 @@ function Reading() {
     const atEnd = value <= layer.min || value >= layer.max;
     const now = entry && layer.measure ? (readLayer(entry, layer.measure, [value])[0] ?? 0) : 0;
     const like = larger(layer.before, now);
-    const reading = layer.measure
-      ? `${formatMeasure(layer.measure.what, layer.before, like)} → ${formatMeasure(layer.measure.what, now, like)}`
-      : '';
+    const show = (length: number) =>
+      layer.measure ? formatMeasure(layer.measure.what, length, like, document.peek().unit) : '';
+    const reading = layer.measure ? `${show(layer.before)} → ${show(now)}` : '';
     text.value = `${reading}${atEnd ? ' · as far as it goes' : ''}`;
   });
   return (

@@ -5,9 +5,13 @@ import type { Statement } from '../program/types';
 import type { LayerEntry } from '../session/document';
 import { misfit } from '../session/evaluation';
 import { titleOf } from '../session/layers';
+import { duplicateLayer } from '../session/page_cards';
 import { playing, playOn, stop } from '../session/play';
 import { document, moveLayer, pointedAt, removeLayer, renameLayer, setEnabled } from '../session/session';
 import { showText } from './actions';
+import { FoldButton, GroupField } from './CardParts';
+import { ChangeCard, OtherCount } from './ChangeCard';
+import { folded } from './folds';
 import { Icon } from './Icon';
 import { Menu } from './Menu';
 import { showReadings } from './ReadingsDialog';
@@ -26,6 +30,8 @@ interface CardProps {
 export function LayerCard({ entry, first, last, plain = false }: CardProps) {
   const { key, layer, enabled } = entry;
   const renaming = useSignal(false);
+  const grouping = useSignal(false);
+  const changing = useSignal(false);
   const isPlaying = playing.value === key;
   const title = titleOf(layer);
   const shape = document.value.model?.shape;
@@ -33,6 +39,7 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
   return (
     <li class={`card ${enabled && unfit === null ? '' : 'off'}`} aria-label={title}>
       <header>
+        {!plain && <FoldButton id={key} title={title} />}
         {renaming.value ? <RenameField entry={entry} done={() => (renaming.value = false)} /> : <h3>{title}</h3>}
         <button
           type="button"
@@ -54,6 +61,9 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
             items={[
               { label: 'Rename', act: () => (renaming.value = true) },
               { label: 'Other readings', disabled: layer.request === '', act: () => showReadings(entry) },
+              { label: 'Change…', disabled: unfit !== null, act: () => (changing.value = true) },
+              { label: 'Duplicate', disabled: unfit !== null, act: () => duplicateLayer(key) },
+              { label: entry.group ? 'Other group…' : 'Group…', act: () => (grouping.value = true) },
               { label: 'Show as text', act: () => showText(key) },
               { label: enabled ? 'Switch off' : 'Switch on', act: () => setEnabled(key, !enabled) },
               { label: 'Move up', disabled: first, act: () => moveLayer(key, -1) },
@@ -65,6 +75,17 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
           </Menu>
         )}
       </header>
+      {grouping.value && <GroupField entry={entry} done={() => (grouping.value = false)} />}
+      {!plain && folded.value.has(key) ? null : <Body entry={entry} plain={plain} unfit={unfit} />}
+      {changing.value && <ChangeCard entry={entry} done={() => (changing.value = false)} />}
+    </li>
+  );
+}
+
+function Body({ entry, plain, unfit }: { entry: LayerEntry; plain: boolean; unfit: string | null }) {
+  const { layer, enabled } = entry;
+  return (
+    <>
       {unfit === null ? (
         <ValueSlider entry={entry} />
       ) : (
@@ -77,8 +98,9 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
       )}
       {!enabled && <p class="quiet">Switched off</p>}
       {!plain && unfit === null && <Status entry={entry} />}
+      {!plain && unfit === null && <OtherCount entry={entry} />}
       {!plain && <Statements statements={layer.statements} />}
-    </li>
+    </>
   );
 }
 
@@ -144,7 +166,7 @@ function Status({ entry }: { entry: LayerEntry }) {
             const relation = model.shape.relations.find(({ id }) => id === report.id);
             if (relation === undefined) return null;
             const text =
-              report.status === 'disabled' ? 'ignored, as asked' : brokenWords(model.shape, layer, relation, report);
+              report.status === 'disabled' ? 'ignored, as asked' : brokenWords(document.value, layer, relation, report);
             return (
               <li key={report.id}>
                 <button type="button" class={`line ${report.status}`} {...point(relation.parts, [relation.id])}>

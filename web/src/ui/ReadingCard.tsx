@@ -69,10 +69,13 @@ export function ReadingCard({ state }: { state: Understood }) {
   );
 }
 
+/** What may have been meant, while it is not decided and nothing came of it. */
+const plainOffers = ({ plain }: Understood) =>
+  plain !== null && !plain.sure && requestLayer.value === null ? plain.readings : [];
+
 /** Says that no language model was asked, and asks one; with what may have been meant, to be clicked, when it is not sure. */
 function Plainly({ state }: { state: Understood }) {
-  const { plain } = state;
-  const offers = plain !== null && !plain.sure && requestLayer.value === null ? plain.readings : [];
+  const offers = plainOffers(state);
   const choose = (reading: number) => {
     chooseReading(reading);
     void applyRequest();
@@ -129,7 +132,7 @@ function Corrections({ state }: { state: Understood }) {
   useEffect(() => leave, []); // what is pointed at may go away under the pointer
   return (
     <div class="corrections">
-      {seed.readings.length > 0 && (
+      {seed.readings.length > 0 && plainOffers(state).length === 0 && (
         <fieldset>
           <legend>{seed.readings.length > 1 ? 'Readings' : 'Reading'}</legend>
           {seed.readings.map(({ words, votes }, i) => (

@@ -2,13 +2,17 @@
 // arrows (with Shift ten steps, with Alt a tenth), Page keys, Home and End.
 import { useComputed, useSignal } from '@preact/signals';
 import { useId } from 'preact/hooks';
+import { models } from '../session/core';
 import type { LayerEntry } from '../session/document';
 import { nameOf } from '../session/document';
+import { putAt } from '../session/extend';
 import { titleOf } from '../session/layers';
 import { formatMeasure, larger, type Measure, measureOf, parseMeasure } from '../session/measure';
+import type { ModelCore } from '../session/model_core';
 import { interrupt } from '../session/play';
 import { readLayer, solveLayer } from '../session/reading';
 import { compiled, document, settle, setValue, slide, sliderValue, step } from '../session/session';
+import { cleanShares, Ends } from './TrackEnds';
 
 const steps = 200;
 
@@ -31,7 +35,12 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
     <div class="value">
       <div
         class="track"
-        style={{ '--zero': share(0), '--low': share(Math.min(0, value)), '--span': Math.abs(share(value) - share(0)) }}
+        style={{
+          ...cleanShares(entry),
+          '--zero': share(0),
+          '--low': share(Math.min(0, value)),
+          '--span': Math.abs(share(value) - share(0)),
+        }}
       >
         <span class="zero" />
         <input
@@ -59,12 +68,14 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
           }}
         />
       </div>
+      {measure && <Ends entry={entry} measure={measure} />}
       {measure && (
         <p class="measure">
           <span class="quiet">{measureName(measure)}</span>
           {value !== 0 && (
             <span class="from">
-              {formatMeasure(measure.what, rest, larger(rest, now))} <span aria-hidden="true">→</span>
+              {formatMeasure(measure.what, rest, larger(rest, now), document.value.unit)}{' '}
+              <span aria-hidden="true">→</span>
             </span>
           )}
           <TypedValue entry={entry} measure={measure} now={now} rest={rest} />
@@ -104,8 +115,9 @@ function readingOf(drawn: LayerEntry): Reading {
   const measure = measures.get(layer) ?? null;
   if (measure === null) return plain;
   const [rest = 0, now = 0] = readLayer(entry, measure, [0, value]);
-  const before = formatMeasure(measure.what, rest, larger(rest, now));
-  const after = formatMeasure(measure.what, now, larger(rest, now));
+  const { unit } = document.value;
+  const before = formatMeasure(measure.what, rest, larger(rest, now), unit);
+  const after = formatMeasure(measure.what, now, larger(rest, now), unit);
   return { text: `${measureName(measure)} ${before} to ${after}`, measure, rest, now };
 }
 
@@ -122,21 +134,18 @@ function TypedValue({ entry, measure, now, rest }: TypedValueProps) {
   const ended = useSignal(false);
   const note = useId();
   const like = larger(rest, now);
+  const { unit } = document.value;
   const commit = () => {
     if (typed.value === null) return;
-    const wanted = parseMeasure(measure.what, typed.value, like);
+    const wanted = parseMeasure(measure.what, typed.value, like, unit);
     wrong.value = wanted === null;
     if (wanted === null) return;
     typed.value = null;
-    const found = solveLayer(entry, measure, wanted);
-    setValue(entry.key, found);
-    const { min, max } = entry.layer.parameter;
-    const [reached = wanted] = readLayer(entry, measure, [found]);
-    const show = (value: number) => formatMeasure(measure.what, value, like);
-    ended.value = (found === min || found === max) && show(wanted) !== show(reached);
+    if (models.peek() === null) setValue(entry.key, solveLayer(entry, measure, wanted));
+    else void putAt(models.peek() as ModelCore, entry, measure, wanted).then((reached) => (ended.value = !reached));
   };
   const said = wrong.value
-    ? `Type a ${measure.what === 'count' ? 'number' : `number, such as ${formatMeasure(measure.what, now, like)}`}.`
+    ? `Type a ${measure.what === 'count' ? 'number' : `number, such as ${formatMeasure(measure.what, now, like, unit)}`}.`
     : ended.value
       ? 'The slider goes no further.'
       : null;
@@ -150,7 +159,7 @@ function TypedValue({ entry, measure, now, rest }: TypedValueProps) {
         aria-label={`${measureName(measure)}, type a value`}
         aria-invalid={wrong.value}
         aria-describedby={said === null ? undefined : note}
-        value={typed.value ?? formatMeasure(measure.what, now, like)}
+        value={typed.value ?? formatMeasure(measure.what, now, like, unit)}
         onFocus={(event) => event.currentTarget.select()}
         onInput={(event) => {
           typed.value = event.currentTarget.value;

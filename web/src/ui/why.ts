@@ -45,7 +45,10 @@ export interface PartWhy {
 }
 
 const sentence = (text: string) => `${capital(text)}.`;
-const distance = (shape: Shape, by: number) => formatMeasure('distance', by * shape.frame.scale);
+const distance = ({ model, unit }: Document, by: number) => {
+  const length = by * (model?.shape.frame.scale ?? 1);
+  return formatMeasure('distance', length, length, unit);
+};
 
 /** What each active layer does with a part and why, in the order of the layers. */
 export function whyPart(document: Document, id: string): readonly PartWhy[] {
@@ -75,7 +78,9 @@ function whyInLayer(
   const relation = shape.relations.find((other) => other.id === most?.relation);
   if (most && relation && step?.kind !== 'seed') {
     text.push(
-      sentence(`at rest, “${relationWords(document, relation, id)}” would be off by up to ${distance(shape, most.by)}`),
+      sentence(
+        `at rest, “${relationWords(document, relation, id)}” would be off by up to ${distance(document, most.by)}`,
+      ),
     );
   }
   const lost = (step?.left_broken ?? []).flatMap(
@@ -136,15 +141,21 @@ export function whyNothingElse({ layer, trace }: LayerEntry): string | null {
 }
 
 /** "comes loose beyond +18 cm": where on the slider a relation gives way. */
-export function brokenWords(shape: Shape, layer: Layer, relation: ShapeRelation, { worst }: RelationReport): string {
-  const found = looseningOf(shape, layer, relation);
-  const off = distance(shape, worst);
+export function brokenWords(
+  document: Document,
+  layer: Layer,
+  relation: ShapeRelation,
+  { worst }: RelationReport,
+): string {
+  const shape = document.model?.shape;
+  const found = shape === undefined ? null : looseningOf(shape, layer, relation);
+  const off = distance(document, worst);
   if (found === null) return `comes apart by up to ${off}`;
   const { below, above, rest, measure } = found;
   const at = (value: number | null) => {
     if (value === null) return [];
     const change = value - rest;
-    const amount = formatMeasure(measure.what, Math.abs(change), larger(rest, value));
+    const amount = formatMeasure(measure.what, Math.abs(change), larger(rest, value), document.unit);
     return [`${change < 0 ? '−' : '+'}${amount}`];
   };
   const verb = { reflection: 'no longer mirrored', ground: 'off the floor' }[relation.kind as string] ?? 'loose';
