@@ -55,6 +55,15 @@ export function App() {
     ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 98 : 158 }
     : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 150 };
   const edits = <EditsPanel pickKind={pickKind} />;
+  const parts = (
+    <PartsPanel
+      onEdit={() => {
+        pickKind.value ??= 'whole';
+        editsOpen.value = true;
+        tab.value = 'edits';
+      }}
+    />
+  );
   return (
     <div class={`app ${isPhone.value ? 'phone' : ''}`}>
       <StageView insets={insets} pickKind={pickKind} />
@@ -63,12 +72,12 @@ export function App() {
       <main>
         {isPhone.value ? (
           <Sheet tab={tab} open={editsOpen}>
-            {tab.value === 'edits' ? edits : <PartsPanel />}
+            {tab.value === 'edits' ? edits : parts}
           </Sheet>
         ) : (
           <>
             <SidePanel title="Parts" side="left" open={partsOpen}>
-              <PartsPanel />
+              {parts}
             </SidePanel>
             <SidePanel title="Edits" side="right" open={editsOpen}>
               {edits}

@@ -8,7 +8,8 @@ import { noTint } from '../scene/model_view';
 import { type Actor, Stage } from '../scene/stage';
 import { openedView, takeLoaded } from '../session/open';
 import { prefersReducedMotion } from '../session/play';
-import { compiled, document, hovered, pointedAt, say, selection, step } from '../session/session';
+import { compiled, document, hovered, pointedAt, say, selected, selection, step } from '../session/session';
+import { realParts } from '../session/several';
 import { theme } from './theme';
 
 export const stage = signal<Stage | null>(null);
@@ -39,6 +40,8 @@ export function toggleApart(): void {
   apartFrame = requestAnimationFrame(next);
 }
 let apartFrame = 0;
+/** Whether clicks add to the selection. */
+export const several = signal(false);
 export const showColours = signal(false);
 let actor: Actor | null = null;
 
@@ -121,13 +124,13 @@ function light(on: Stage): void {
   const soft = tint(accentRgb, 0.16);
   const dimmed = tint(groundRgb, 0.45);
 
-  const selected = expand(selection.value?.part ?? null);
+  const chosen = new Set(realParts(model.shape, selected.value));
   const over = expand(hovered.value);
   const pointed = new Set((pointedAt.value?.parts ?? []).flatMap((id) => [...expand(id)]));
   const colours = showColours.value;
   for (const [i, { id }] of model.shape.parts.entries()) {
     const own = colours ? tint(partColour(i), 0.75) : noTint;
-    const focus = pointed.size > 0 ? pointed : selected;
+    const focus = pointed.size > 0 ? pointed : chosen;
     const isLit = focus.has(id);
     actor.view.setTint(i, isLit ? lit : over.has(id) ? soft : focus.size > 0 && !colours ? dimmed : own);
   }
