@@ -7,6 +7,7 @@ import { readDropped } from '../session/files';
 import { document } from '../session/session';
 import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
+import { Compass } from './Compass';
 import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
 import { EditsPanel } from './EditsPanel';
@@ -67,6 +68,7 @@ export function App() {
   return (
     <div class={`app ${isPhone.value ? 'phone' : ''}`}>
       <StageView insets={insets} pickKind={pickKind} />
+      <Compass right={insets.right} />
       <Handles />
       <TopBar />
       <main>

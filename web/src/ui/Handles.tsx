@@ -82,11 +82,9 @@ export function Handles() {
   useEffect(() => {
     const on = stage.value;
     if (!on) return;
-    on.onDraw = place;
+    on.drawn.add(place);
     place();
-    return () => {
-      on.onDraw = () => {};
-    };
+    return () => void on.drawn.delete(place);
   });
   useSignalEffect(() => {
     const held = pull.value;

@@ -5,10 +5,13 @@ import type { LocalTriple, Sign, Vec3 } from '../program/types';
 import type { Insets } from '../scene/camera';
 import { document, hovered, select, selectAlso, selected, selection } from '../session/session';
 import { BoxSelect } from './BoxSelect';
-import { mountStage, several, stage } from './view';
+import { brightness, mountStage, several, stage } from './view';
 import type { FeatureKind } from './words';
 
 const dragThreshold = 5; // CSS pixels
+/** Brightness from which a model is lost on the light ground, and below which on the dark one. */
+const pale = 0.85;
+const deep = 0.25;
 
 interface StageViewProps {
   readonly insets: Insets;
@@ -34,7 +37,7 @@ export function StageView({ insets, pickKind }: StageViewProps) {
   const model = document.value.model;
   useEffect(() => {
     stage.value?.setInsets({ left, right, top, bottom });
-    stage.value?.fit(null);
+    if (stage.value?.rig.isFramed) stage.value.fit(null);
   }, [left, right, top, bottom, stage.value]);
 
   const partAt = (x: number, y: number) => {
@@ -46,7 +49,7 @@ export function StageView({ insets, pickKind }: StageViewProps) {
     <>
       <canvas
         ref={canvas}
-        class="stage"
+        class={`stage ${brightness.value > pale ? 'pale' : brightness.value < deep ? 'deep' : ''}`}
         tabIndex={0}
         role="img"
         aria-label={model === null ? 'No model yet' : `${model.shape.name}, turn with the arrow keys`}

@@ -48,7 +48,7 @@ function onPlain(event: KeyboardEvent): boolean {
       stage.peek()?.rig.look('front', true);
       return true;
     case '3':
-      stage.peek()?.rig.look('right', true);
+      stage.peek()?.rig.look('left', true);
       return true;
     case '7':
       stage.peek()?.rig.look('top', true);

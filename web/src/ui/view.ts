@@ -2,12 +2,14 @@
 import { effect, signal, untracked } from '@preact/signals';
 import type { Evaluator } from '../program/compile';
 import type { Shape } from '../program/types';
+import { brightnessOf } from '../scene/brightness';
 import type { LoadedModel, ModelFiles } from '../scene/load';
 import type { Tint } from '../scene/model_view';
 import { noTint } from '../scene/model_view';
 import { type Actor, Stage } from '../scene/stage';
 import { openedView, takeLoaded } from '../session/open';
 import { prefersReducedMotion } from '../session/play';
+import { pull } from '../session/pull';
 import { compiled, document, hovered, pointedAt, say, selected, selection, step } from '../session/session';
 import { realParts } from '../session/several';
 import { theme } from './theme';
@@ -42,6 +44,8 @@ export function toggleApart(): void {
 let apartFrame = 0;
 /** Whether clicks add to the selection. */
 export const several = signal(false);
+/** Of the model that is shown, 0 black … 1 white. */
+export const brightness = signal(0.5);
 export const showColours = signal(false);
 let actor: Actor | null = null;
 
@@ -64,6 +68,8 @@ export function mountStage(canvas: HTMLCanvasElement): () => void {
       shown.value;
       const evaluator = untracked(currentEvaluator);
       if (evaluator) created.update(evaluator);
+      // A hand that pulls must not have the view move below it; once it lets go, it may.
+      if (pull.value === null && shownFiles !== null) created.keepInView();
     }),
     effect(() => {
       const { hidden, model } = document.value;
@@ -93,6 +99,7 @@ async function showModel(on: Stage): Promise<void> {
     return say(`The model cannot be drawn: ${error instanceof Error ? error.message : String(error)}.`, 'error');
   }
   if (document.peek().model !== model || stage.peek() !== on) return loaded.dispose();
+  brightness.value = brightnessOf(loaded);
   actor = on.show(loaded, model.shape);
   const isAnother = shownFiles !== model.files;
   shownFiles = model.files;
