@@ -109,7 +109,7 @@ describe('several parts', () => {
     await page.locator('.handle.held .pull-reading').filter({ hasText: '→' }).waitFor();
     await page.keyboard.press('Enter');
     await page.locator('.card').waitFor();
-    const group = shape.parts.find(({ label, virtual }) => label === 'slat' && virtual);
+    const group = shape.parts.find(({ members }) => slats.every((id) => members.includes(id)));
     const seeds = await page.evaluate(() =>
       (parsel.document().layers[0]?.layer.statements ?? [])
         .filter(({ why }) => why?.kind === 'seed')

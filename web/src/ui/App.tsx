@@ -11,6 +11,8 @@ import { Compass } from './Compass';
 import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
 import { EditsPanel } from './EditsPanel';
+import { FirstScreen } from './FirstScreen';
+import { Found } from './Found';
 import { isEmbedded } from './frame';
 import { Handles } from './Handles';
 import { HelpDialog, Licences } from './HelpDialog';
@@ -70,6 +72,7 @@ export function App() {
       <StageView insets={insets} pickKind={pickKind} />
       <Compass right={insets.right} />
       <Handles />
+      <FirstScreen />
       <TopBar />
       <main>
         {isPhone.value ? (
@@ -92,6 +95,7 @@ export function App() {
         >
           <TourOffer />
           <StatusLine />
+          <Found />
           <div class="row">
             <Dimensions />
             <ApartSlider />

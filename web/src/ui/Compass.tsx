@@ -12,9 +12,9 @@ const sides = [
 ] as const;
 
 /** CSS pixels, as in style/compass.css. */
-const radius = 26;
+const radius = 30;
 /** Seen level, the ring is as flat as this. */
-const flattest = 0.42;
+const flattest = 0.5;
 
 /** @param right CSS pixels that panels cover on that side */
 export function Compass({ right }: { right: number }) {

@@ -55,7 +55,7 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
     if (row === undefined) return;
     at.value = row.part.id;
     show(rows.indexOf(row));
-    if (extend) selectRange(rows, selection.peek()?.part ?? row.part.id, row.part.id);
+    if (extend) selectRange(rows, selection.peek()?.part ?? rows[active]?.part.id ?? row.part.id, row.part.id);
     // The row may only be drawn now that the list has scrolled.
     requestAnimationFrame(() => list.current?.querySelector<HTMLElement>('.name[tabindex="0"]')?.focus());
   };
@@ -109,7 +109,7 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
         )}
         <button
           type="button"
-          class={`button severally ${isLong ? 'icon-only' : ''}`}
+          class={`button severally ${isLong ? 'icon-only' : 'quiet'}`}
           aria-pressed={several.value}
           aria-label="Select several"
           title="Select several: clicks add to the selection (Shift+click does so at any time; Shift+drag draws a box)"
@@ -118,6 +118,7 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
           }}
         >
           <Icon name="several" />
+          {!isLong && 'Select several'}
         </button>
       </div>
       <ul

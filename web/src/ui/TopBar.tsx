@@ -43,6 +43,7 @@ export function TopBar() {
       <h1>ParSEL</h1>
       <button type="button" class="button model" aria-haspopup="dialog" onClick={() => (dialog.value = 'open')}>
         <Icon name="open" />
+        {model !== null && <span class="quiet wide-only">Open</span>}
         <span class="model-name">{model?.shape.name ?? 'Open a model'}</span>
       </button>
       <div class="bar-middle">
