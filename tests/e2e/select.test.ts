@@ -129,30 +129,22 @@ describe('several parts', () => {
 });
 
 describe('a thousand parts', () => {
-  it('are listed by those in sight, found by name, and selected without a long task', async () => {
+  it('are listed by those in sight, and found by name', async () => {
     await open(wall(25, 40), { name: 'wall.glb' });
     await expect.poll(() => page.locator('.part').count()).toBeGreaterThan(10);
     expect(await page.locator('.part').count()).toBeLessThan(80);
-    await page.evaluate(() => {
-      const tasks: number[] = [];
-      Object.assign(globalThis, { longTasks: tasks });
-      new PerformanceObserver((list) => {
-        tasks.push(...list.getEntries().map(({ duration }) => duration));
-      }).observe({ type: 'longtask' });
-    });
     const find = page.getByLabel('Find a part');
     await find.fill('drawer 37');
     expect(await page.locator('.part .name').count()).toBeLessThan(60);
     await find.press('Enter');
-    expect((await selected()).length).toBeGreaterThan(0);
+    const found = await selected();
+    expect(found.length).toBeGreaterThan(0);
+    expect(found.every((id) => /drawer_37/.test(id))).toBe(true);
     await find.fill('');
     await page.locator('.parts.long').evaluate((list) => list.scrollTo(0, 1e6));
-    await expect.poll(() => page.locator('.part .name').last().textContent()).toBeTruthy();
+    await expect.poll(() => page.locator('.part').last().getAttribute('aria-posinset')).toMatch(/^\d{3,}$/);
+    expect(await page.locator('.part').count()).toBeLessThan(80);
     await page.screenshot({ path: `${outputFolder}/thousand.png` });
-    const longest = await page.evaluate(() =>
-      Math.max(0, ...(globalThis as unknown as { longTasks: number[] }).longTasks),
-    );
-    process.stdout.write(`longest task with 1000 parts: ${longest} ms\n`);
     expect(complaints).toEqual([]);
   });
 });

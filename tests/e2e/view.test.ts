@@ -12,8 +12,9 @@ declare const parsel: DebugHandle;
 
 const site = useSite();
 
-async function widened(options: Parameters<typeof openModel>[3] = {}): Promise<Page> {
-  const { page } = await openModel(site.browser, site.url, stool, options);
+/** Without motion: the camera is there at once, however slowly this machine draws. */
+async function widened(): Promise<Page> {
+  const { page } = await openModel(site.browser, site.url, stool, { reducedMotion: 'reduce' });
   const shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
   const edits = program(shape);
   const [widen] = edits.layers;

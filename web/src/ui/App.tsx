@@ -12,7 +12,6 @@ import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
 import { EditsPanel } from './EditsPanel';
 import { FirstScreen } from './FirstScreen';
-import { Found } from './Found';
 import { isEmbedded } from './frame';
 import { Handles } from './Handles';
 import { HelpDialog, Licences } from './HelpDialog';
@@ -95,7 +94,6 @@ export function App() {
         >
           <TourOffer />
           <StatusLine />
-          <Found />
           <div class="row">
             <Dimensions />
             <ApartSlider />

@@ -24,7 +24,7 @@ export function GoodModel() {
     <p class="quiet good-model">
       A good model has <strong>separate parts</strong> (seat, legs and back as meshes of their own), which{' '}
       <strong>touch</strong> where they are joined, and <strong>names</strong> that say what they are. Furniture,
-      shelves, fences, lamps, houses: whatever is put together of pieces. Nothing leaves this machine.
+      shelves, fences, lamps, houses: whatever is put together of pieces. The file stays on this machine.
     </p>
   );
 }

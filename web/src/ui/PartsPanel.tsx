@@ -5,6 +5,7 @@ import { models } from '../session/core';
 import { nameOf, partKey } from '../session/document';
 import { relabel } from '../session/open';
 import { document, pointedAt, select, selected, selection, showAll } from '../session/session';
+import { Found } from './Found';
 import { PartsList } from './PartsList';
 import { SelectionBar } from './SelectionBar';
 import { whyPart } from './why';
@@ -16,6 +17,7 @@ export function PartsPanel({ onEdit }: { onEdit: () => void }) {
   if (model === null) return <p class="quiet empty">The parts of the model are listed here.</p>;
   return (
     <>
+      <Found shape={model.shape} />
       <PartsList parts={model.shape.parts} />
       {hidden.size > 0 && (
         <button type="button" class="button wide" onClick={showAll}>
