@@ -12,7 +12,8 @@ const small = boxOf(0.4, 0.6, 0.4);
 let rig: CameraRig;
 /** As frames do, until nothing moves. */
 const settle = () => {
-  for (let i = 0; i < 600 && rig.update(1 / 60); i++);
+  let frames = 0;
+  while (rig.update(1 / 60)) if (++frames > 600) throw new Error('the camera never comes to rest');
   rig.camera.updateMatrixWorld();
 };
 /** CSS pixels in the canvas of all corners of a box. */
