@@ -82,7 +82,10 @@ describe('the ground', () => {
   it('is darker below a white model', async () => {
     const { page } = await openModel(site.browser, site.url, wall(2, 3), { name: 'wall.glb' });
     await page.locator('.stage.pale').waitFor();
-    await page.screenshot({ path: `${outputFolder}/white.png` });
+    const ground = () => page.locator('.stage').evaluate((stage) => getComputedStyle(stage).backgroundImage);
+    const below = await ground();
+    await page.locator('.stage').evaluate((stage) => stage.classList.remove('pale'));
+    expect(await ground()).not.toBe(below);
     await page.context().close();
   });
 });
