@@ -121,8 +121,8 @@ export class CameraRig {
     const box = boxScratch.copy(atFit).union(now);
     const centre = box.getCenter(new three.Vector3());
     const [slopeX, slopeY] = this.#slopes();
-    const least = atFit.getBoundingSphere(new three.Sphere()).radius / Math.sin(Math.atan(Math.min(slopeX, slopeY)));
-    let distance = 1.04 * least;
+    const { radius } = atFit.getBoundingSphere(new three.Sphere());
+    let distance = (1.04 * radius) / Math.sin(Math.atan(Math.min(slopeX, slopeY))); // as in fit()
     const spherical = this.#controls.getSpherical(new three.Spherical(), true);
     const back = new three.Vector3().setFromSpherical(spherical).normalize();
     const right = new three.Vector3(Math.cos(spherical.theta), 0, -Math.sin(spherical.theta));
@@ -136,11 +136,9 @@ export class CameraRig {
       const aside = Math.max(Math.abs(corner.dot(right)) / slopeX, Math.abs(corner.dot(up)) / slopeY);
       distance = Math.max(distance, 1.04 * aside + corner.dot(back));
     }
-    const framed = this.#framed;
-    const isThere =
-      framed !== null &&
-      framed.target.distanceTo(centre) < 2e-3 * distance &&
-      Math.abs(framed.distance - distance) < 2e-3 * distance;
+    const { target, distance: last } = this.#framed ?? { target: centre, distance };
+    // As good as exactly: what comes back to where it was is drawn as it was.
+    const isThere = target.distanceTo(centre) < 1e-9 && Math.abs(last - distance) < 1e-9;
     if (!isThere) this.#moveTo(centre, distance, true, gentle);
   }
 
