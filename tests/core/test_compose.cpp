@@ -34,6 +34,7 @@ Program stack(const Shape& shape, std::vector<Statement> first, std::vector<Stat
   layer.parameter.name = "x2";
   program.layers.push_back(std::move(layer));
   for (std::size_t l = 0; l < program.layers.size(); ++l) {
+    if (!is_derived(program.layers[l].statements.back())) continue;
     Program by_itself = program;
     std::swap(by_itself.layers[0], by_itself.layers[l]);
     by_itself.layers.resize(1);
