@@ -15,7 +15,8 @@ struct SliderSpan {
 /// The values of the layer's parameter between which each of its seeds stays a useful change, but at least ±`least`:
 ///
 ///   scale           half to twice; a part thinner than can be seen, up to a thickness that can
-///   translate       a whole part by half the model, or by its own length; a face until the part is half or twice as long
+///   translate       a whole part by half the model, or by its own length; a face until the part is half or twice as
+///                   long
 ///   rotate          ±110° for what opens or spins, as a door, a lid or a wheel: everything that the layer moves turns,
 ///                   and the part does not stand on its axis. ±30° for what leans, as a chair's back
 ///   shear           by the slope of ±30°

@@ -17,17 +17,17 @@ namespace parsel {
 /// shelves; nor are two instances of one group, nor instances whose number the layer has changed.
 ///
 /// The depth of an overlap is the smallest along the boxes' face normals and the cross products of their edges
-/// (Gottschalk, Lin and Manocha 1996, OBBTree, §5): exact for boxes; for sheared hexahedra, of which the mean edges count,
-/// a little more than the least.
+/// (Gottschalk, Lin and Manocha 1996, OBBTree, §5): exact for boxes; for sheared hexahedra, of which the mean edges
+/// count, a little more than the least.
 class Clearance {
  public:
-  /// `program` passed validate() for `shape`, which must live as long. Layers up to `layer` are applied, those before it
-  /// at their values.
+  /// `program` passed validate() for `shape`, which must live as long. Layers up to `layer` are applied, those before
+  /// it at their values.
   Clearance(const Shape& shape, const Program& program, std::size_t layer);
 
   /// Which part has entered which where the layer's parameter is x, a clause for people; empty when none has: no two
-  /// parts, at least one of them edited, overlap deeper than at 0 by more than the thickness said above. Time grows with
-  /// n log n of n parts and with the pairs whose bounding boxes overlap.
+  /// parts, at least one of them edited, overlap deeper than at 0 by more than the thickness said above. Time grows
+  /// with n log n of n parts and with the pairs whose bounding boxes overlap.
   std::string fault(double x) const;
 
  private:

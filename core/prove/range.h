@@ -23,15 +23,14 @@ struct Range {
 
 /// The widest [min, max] within [low, high] on which, going outward from 0, no hexahedron of an active part or of an
 /// instance inverts or collapses (see collapse_ratio, at the corners of the cage), no instances of a row run into each
-/// other that stood apart at rest, and every amount of the layer is defined and below largest_amount in size (see there). The
-/// layers before it stand at their values, later ones are not applied.
+/// other that stood apart at rest, and every amount of the layer is defined and below largest_amount in size (see
+/// there). The layers before it stand at their values, later ones are not applied.
 ///
-/// low < 0 < high. On each side, 48 steps to its limit (low or high) find the first failure, bisection its place to 1e-6
-/// of the limit; ends short of it are rounded towards 0 to four decimals. What lies between the steps is then bounded
-/// with jets, in pieces down to 1e-9 of the limit: a cage that inverts within one step is found unless its pieces are
-/// more than are looked at. That instances of a row run into
-/// each other between two steps is not seen. When the shape fails at 0 already (an earlier layer collapsed a part), the
-/// range is [0, 0].
+/// low < 0 < high. On each side, 48 steps to its limit (low or high) find the first failure, bisection its place to
+/// 1e-6 of the limit; ends short of it are rounded towards 0 to four decimals. What lies between the steps is then
+/// bounded with jets, in pieces down to 1e-9 of the limit: a cage that inverts within one step is found unless its
+/// pieces are more than are looked at. That instances of a row run into each other between two steps is not seen. When
+/// the shape fails at 0 already (an earlier layer collapsed a part), the range is [0, 0].
 Range find_range(const Shape& shape, const Program& program, std::size_t layer, double low, double high);
 
 }  // namespace parsel

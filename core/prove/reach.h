@@ -11,8 +11,9 @@
 
 namespace parsel {
 
-/// Beyond the range that the search looked at, a relation may be off by this, or by as much as it is within that range: an
-/// inexact edit stays as good as it is, and an exact one may begin to drift, but not so that one sees it. Half-diagonals.
+/// Beyond the range that the search looked at, a relation may be off by this, or by as much as it is within that range:
+/// an inexact edit stays as good as it is, and an exact one may begin to drift, but not so that one sees it.
+/// Half-diagonals.
 inline constexpr double clean_drift = 0.005;
 
 struct SliderReach {
@@ -22,12 +23,12 @@ struct SliderReach {
 
 /// The widest range of the layer's parameter that find_range() finds within [low, high] and on which, beyond ±`least`,
 ///   * no parts run into each other (clearance.h),
-///   * every relation that holds within ±`least` is off by no more than there or clean_drift, and holds, certified if it is
-///     there.
+///   * every relation that holds within ±`least` is off by no more than there or clean_drift, and holds, certified if
+///     it is there.
 /// So no relation is held, or certified, in ±`least` alone. What is broken there, or disabled, ends nothing; a side on
 /// which parts run into each other there already ends there. Ends that are found, by 24 steps a side and bisection, are
-/// rounded towards 0 to four decimals; when a proof then finds more between the steps, or none, the part beyond ±`least` is
-/// halved, three times at most, and then given up.
+/// rounded towards 0 to four decimals; when a proof then finds more between the steps, or none, the part beyond
+/// ±`least` is halved, three times at most, and then given up.
 ///
 /// `program` passed validate() for `shape`, but for the layer's range, which counts for nothing; low <= -least < 0 <
 /// least <= high.
