@@ -165,13 +165,24 @@ class Extension {
       const RelationReport& inside = *by_id.at(report.id);
       if (inside.status != RelationStatus::held) continue;
       const RelationIndex relation = *shape_.find_relation(report.id);
+      const double tolerance = tolerance_of(shape_.relations[relation], scope_);
       const double most =
-          std::min(tolerance_of(shape_.relations[relation], scope_), std::max(inside.worst, clean_drift));
+          follows_group(relation) ? tolerance : std::min(tolerance, std::max(inside.worst, clean_drift));
       const bool is_kept = report.status == RelationStatus::held && report.worst <= most + noise;
       const bool is_proved = inside.proof == Proof::sampled || report.proof == Proof::certified;
       if (!is_kept || !is_proved) lost.push_back({make_constraint(shape_, relation), most});
     }
     return lost;
+  }
+
+  /// Whether a joint is that of an instance, which goes where its group takes it and may slide along its neighbour.
+  bool follows_group(RelationIndex relation) const {
+    const Relation& joint = shape_.relations[relation];
+    return joint.is_attachment() && std::any_of(joint.parts.begin(), joint.parts.end(), [&](PartIndex p) {
+             const Part& part = shape_.parts[p];
+             return part.group && !part.is_virtual() &&
+                    std::find(scope_.dissolved.begin(), scope_.dissolved.end(), *part.group) == scope_.dissolved.end();
+           });
   }
 
   Fault drifting(const std::vector<Kept>& kept) const {
