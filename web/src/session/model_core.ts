@@ -26,11 +26,21 @@ export interface Propagation {
   readonly trace?: Trace;
 }
 
+export interface SplitFiles {
+  readonly files: ModelFiles;
+  /** Real parts before and after. */
+  readonly before: number;
+  readonly parts: number;
+  readonly remarks: readonly string[];
+}
+
 type Options = Pick<CallOptions, 'signal' | 'onProgress'>;
 
 export interface ModelCore {
   /** Reads and abstracts a model, with labels that take the place of the file's own. */
   open(files: ModelFiles, options: Options, labels?: Labels): Promise<Shape>;
+  /** The files with their parts told apart, and what was left whole, in sentences. */
+  split(files: ModelFiles, how: Parameters<'split'>, options: Options): Promise<SplitFiles>;
   /** One layer, from a seed edit. */
   propagate(model: OpenModel, edit: EditInput, options: Options): Promise<Propagation>;
   /** The model's file with the program applied. */
@@ -42,7 +52,13 @@ export interface ModelCore {
   /** What a language model is asked for proposals; see `proposal_prompt` in protocol.ts. */
   proposalPrompt(model: OpenModel, about: Parameters<'proposal_prompt'>): Promise<MethodResult<'proposal_prompt'>>;
   /** Random settings of a program's sliders that are sound together; the same for the same seed. */
-  siblings(model: OpenModel, program: Program, count: number, seed: number): Promise<MethodResult<'siblings'>>;
+  siblings(
+    model: OpenModel,
+    program: Program,
+    count: number,
+    seed: number,
+    options: Options,
+  ): Promise<MethodResult<'siblings'>>;
   /** What its replies mean. */
   readReplies(model: OpenModel, request: string, replies: Replies[]): Promise<Inference>;
 }
@@ -70,6 +86,28 @@ export function modelCore(client: CoreClient): ModelCore {
       const { result } = await client.setUp(stateOf({ files, labels }), options);
       return result.shape as unknown as Shape;
     },
+    async split(files, how, options) {
+      const { result, buffers } = await client.call('split', how, {
+        ...options,
+        needs: stateOf({ files, labels: noLabels }),
+      });
+      const [main] = buffers;
+      if (main === undefined) throw new Error('The core gave no file.');
+      const { converted, decompressed } = files;
+      return {
+        files: {
+          name: files.name,
+          main,
+          external: new Map(),
+          ...(converted ? { converted } : {}),
+          ...(decompressed ? { decompressed } : {}),
+          split: { from: files, ...how },
+        },
+        before: result.before,
+        parts: result.parts,
+        remarks: result.warnings.map(({ place, text }) => `${place}: ${text}`),
+      };
+    },
     async propagate(model, edit, options) {
       const { result } = await client.call('propagate', { edit }, { ...options, needs: stateOf(model) });
       return result as Propagation;
@@ -85,8 +123,9 @@ export function modelCore(client: CoreClient): ModelCore {
     async proposalPrompt(model, about) {
       return (await client.call('proposal_prompt', about, { needs: stateOf(model) })).result;
     },
-    async siblings(model, program, count, seed) {
-      return (await client.call('siblings', { program, count, seed }, { needs: stateOf(model) })).result;
+    async siblings(model, program, count, seed, options) {
+      const needs = stateOf(model);
+      return (await client.call('siblings', { program, count, seed }, { ...options, needs })).result;
     },
     async readReplies(model, request, replies) {
       return (await client.call('read_replies', { request, replies }, { needs: stateOf(model) })).result;

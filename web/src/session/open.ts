@@ -20,9 +20,15 @@ import type { ModelCore } from './model_core';
 import { takeSliders } from './one_file';
 import { carryOver } from './relabel';
 import { document, newEntry, replaceDocument, run, say } from './session';
+import { splitAs } from './split_files';
 
 /** Meshes that have been read for a model that is about to be shown; the stage takes them. */
 const prepared = new WeakMap<ModelFiles, LoadedModel>();
+
+/** Reads the meshes of a model that is about to be shown. */
+export async function prepare(files: ModelFiles): Promise<void> {
+  prepared.set(files, await loadModel(files));
+}
 
 /** The meshes of a model, read again when the stage has had them before. The caller disposes of them. */
 export async function takeLoaded(files: ModelFiles): Promise<LoadedModel> {
@@ -64,7 +70,7 @@ async function abstract(
   return run('Reading the model', async (options) => {
     const taken = takeSliders(await converted(await get(options.signal), options));
     const found = given === null ? taken.found : null;
-    const files = await decompressed(taken.files, options);
+    const files = await splitAs(given?.saved.split, await decompressed(taken.files, options), core, options);
     let labels = labelsOf(given ?? found?.work ?? null);
     let shape = await core.open(files, options, labels);
     const misfits = found?.misfit(shape) ?? null;
@@ -72,7 +78,7 @@ async function abstract(
       labels = noLabels;
       shape = await core.open(files, options, labels);
     }
-    prepared.set(files, await loadModel(files));
+    await prepare(files);
     options.signal.throwIfAborted();
     const model = { files, source, shape, labels };
     if (given !== null) return { model, work: given, refused: null };

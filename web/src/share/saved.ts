@@ -33,6 +33,11 @@ const viewSchema: v.GenericSchema<unknown, CameraPose> = v.strictTuple([
   finite,
 ]);
 
+const splitSchema = v.strictObject({
+  by: v.picklist(['auto', 'components', 'materials', 'regions']),
+  fine: v.pipe(v.number(), v.minValue(0), v.maxValue(1)),
+});
+
 const savedSchema = v.strictObject({
   format: v.literal('parsel/session'),
   version: v.literal(1),
@@ -45,6 +50,8 @@ const savedSchema = v.strictObject({
   names: v.pipe(v.array(renamed), v.maxLength(limits.statements)),
   /** Labels given in place of the file's own, by "node:<index>/<primitive>". */
   labels: v.exactOptional(v.pipe(v.array(label), v.maxLength(limits.statements))),
+  /** How the parts were told apart before all else; the hash is that of the result. */
+  split: v.exactOptional(splitSchema),
   view: v.exactOptional(viewSchema),
 });
 export type Saved = v.InferOutput<typeof savedSchema>;
@@ -62,6 +69,7 @@ export function save(document: Document, view?: CameraPose): Saved {
   const { model, layers, hidden, names } = document;
   if (model === null) throw new Error('there is no model to save the work on');
   const { shape, source, labels } = model;
+  const { split } = model.files;
   return {
     format: 'parsel/session',
     version: 1,
@@ -81,6 +89,7 @@ export function save(document: Document, view?: CameraPose): Saved {
     hidden: [...hidden],
     names: [...names],
     ...(labels.size > 0 ? { labels: [...labels] } : {}),
+    ...(split === undefined ? {} : { split: { by: split.by, fine: split.fine } }),
     ...(view === undefined ? {} : { view }),
   };
 }
@@ -133,6 +142,8 @@ function salvage(json: Json): Work | null {
   const off = new Set(some(listOf(json['off'], 'which edits are off'), v.number(), 'which edits are off'));
   const labels = json['labels'] === undefined ? [] : some(listOf(json['labels'], 'labels'), label, 'labels');
   const view = v.safeParse(viewSchema, json['view']);
+  const split = v.safeParse(splitSchema, json['split']);
+  if (!split.success && json['split'] !== undefined) lost.push('how the parts were told apart');
   if (!view.success && json['view'] !== undefined) lost.push('the view');
   const { name, sha256 } = model.output;
   const saved: Saved = {
@@ -149,6 +160,7 @@ function salvage(json: Json): Work | null {
     hidden: some(listOf(json['hidden'], 'what is hidden'), id, 'what is hidden'),
     names: some(listOf(json['names'], 'names'), renamed, 'names'),
     ...(labels.length > 0 ? { labels } : {}),
+    ...(split.success ? { split: split.output } : {}),
     ...(view.success ? { view: view.output } : {}),
   };
   return { saved, lost: [...new Set(lost)] };
