@@ -163,9 +163,12 @@ class Checker {
     const std::vector<Statement>& statements = program_.layers[l].statements;
     for (std::size_t i = 0; i < statements.size(); ++i) {
       if (statements[i].op == Op::keep_fixed) continue;
-      if (std::abs(replay_.amount(l, i, values)) < 5) continue;
+      const bool is_count = statements[i].op == Op::change_count;
+      if (std::abs(replay_.amount(l, i, values)) < (is_count ? 1000 : 5)) continue;
       const std::string place = layer_place(l) + "/statements/" + std::to_string(i) + "/amount";
-      if (faulty.insert(place).second) find(place, "undefined or beyond 5 somewhere in the range", narrow);
+      if (faulty.insert(place).second)
+        find(place, std::string("undefined or beyond ") + (is_count ? "1000" : "5") + " somewhere in the range",
+             narrow);
     }
   }
 

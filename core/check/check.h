@@ -34,7 +34,7 @@ struct CheckReport {
 ///   * it is for this shape; parts, relations and references exist; operators have the fields they need;
 ///   * ranges contain 0 and the value; with all parameters 0 nothing moves (1e-6);
 ///   * over each layer's range (201 even values, ends included, and 40 random ones; other layers at their value):
-///     amounts are defined and below 5, no cage is inverted at a corner;
+///     amounts are defined and below 5 (a change_count: 1000 instances), no cage is inverted at a corner;
 ///   * every judged relation (is_judged() in core/prove/scope.h) that touches an edited part and exists while the
 ///     layer's parameter is 0 is reported, once, and no other but disabled groups;
 ///   * held: never beyond the tolerance; broken: beyond it somewhere; worst: never exceeded (1e-6, for it is rounded

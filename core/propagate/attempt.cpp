@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/prove/prove.h"
-#include "core/prove/range.h"
+#include "core/propagate/slider_span.h"
+#include "core/prove/reach.h"
 
 namespace parsel {
 
@@ -45,15 +45,17 @@ Propagation finished(const Shape& shape, const ResolvedRequest& request, const P
   layer.parameter = {options.parameter, at.front(), at.back(), 0};
   result.program.layers.push_back(std::move(layer));
   Layer& made = result.program.layers[0];
-  report(progress, "finding the range", 0, 2);
-  const Range range = find_range(shape, result.program, 0, options.limit);
-  made.parameter.min = range.min;
-  made.parameter.max = range.max;
   const auto id = [&](RelationIndex relation) { return shape.relations[relation].id; };
   std::set<std::string> disabled;
   for (const RelationIndex relation : request.disabled) disabled.insert(id(relation));
-  report(progress, "proving the relations", 1, 2);
-  made.relations = prove_relations(shape, result.program, 0, disabled);
+  report(progress, "finding the range and proving the relations", 0, 1);
+  const SliderSpan span = span_of_seeds(shape, made, options.limit);
+  SliderReach reach = reach_of_layer(shape, result.program, 0, disabled, options.limit, span.low, span.high);
+  made.parameter.min = reach.range.min;
+  made.parameter.max = reach.range.max;
+  made.relations = std::move(reach.relations);
+  trace.low_end = std::move(reach.range.min_reason);
+  trace.high_end = std::move(reach.range.max_reason);
 
   trace.parameter = options.parameter;
   trace.samples.assign(at.begin(), at.end());

@@ -41,7 +41,7 @@ namespace parsel {
 struct PropagateOptions {
   std::string request;           ///< in words, for the program's layer
   std::string parameter = "x1";  ///< name of the program's parameter, which x in the request becomes
-  double limit = tau;            ///< the range sought is within ±limit
+  double limit = tau;            ///< the search looks at ±limit; the range goes on from there (core/prove/reach.h)
   bool neighbour_edits = true;   ///< off for the ablation of ParSEL §7.3
   bool breaking_edits = true;    ///< likewise
   bool revisions = true;         ///< likewise: a second look at parts near relations that stay broken

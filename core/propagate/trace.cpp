@@ -55,6 +55,7 @@ json to_json(const Trace& trace) {
       {"dissolved", trace.dissolved},
       {"disabled", trace.disabled},
       {"steps", steps},
+      {"ends", {{"min", trace.low_end}, {"max", trace.high_end}}},
       {"notes", trace.notes},
       {"stop", trace.stop}};
 }

@@ -20,6 +20,8 @@
 //      "symmetry_cost":n,"energy":number,
 //      "runners_up":[{"statement":text,"symmetry_cost","energy","error"}],   // best first, at most 3
 //      "why":"sentence"}],
+//    "ends":{"min":clause,"max":clause},                     // why the slider goes no further: "seat would collapse";
+//                                                            // "limit" where that is far enough
 //    "notes":[sentences: hints without effect, …],
 //    "stop":"sentence"}
 // A step's relations are evaluated on the shape at rest with only the statements of this step and of earlier ones
@@ -67,6 +69,7 @@ struct Trace {
   double exact = 0, one_edited = 0, both_edited = 0;
   std::vector<std::string> dissolved, disabled;
   std::vector<TraceStep> steps;
+  std::string low_end, high_end;
   std::vector<std::string> notes;
   std::string stop;
 };

@@ -102,11 +102,12 @@ bool Enclosure::extend(const Interval& x, std::vector<Case>& cases, std::size_t 
   return true;
 }
 
-bool Enclosure::amounts_below(double limit, const Interval& x) const {
+bool Enclosure::amounts_below(double limit, double most_instances, const Interval& x) const {
   const std::vector<Jet> parameters = parameters_over(x);
   for (const Step& step : layers_[layer_]) {
     const Jet amount = evaluate(step.amount, parameters.data());
-    if (!amount.defined || !(amount.c[0].magnitude() < limit)) return false;
+    const double largest = step.op == Op::change_count ? most_instances : limit;
+    if (!amount.defined || !(amount.c[0].magnitude() < largest)) return false;
   }
   return true;
 }

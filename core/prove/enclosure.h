@@ -34,8 +34,9 @@ class Enclosure {
   /// nothing jumps; nothing when there are more than `most`.
   std::vector<std::vector<Case>> cases_over(const Interval& x, std::size_t most) const;
 
-  /// Whether all amounts of the layer are shown to be defined and smaller than `limit` in size over the range.
-  bool amounts_below(double limit, const Interval& x) const;
+  /// Whether all amounts of the layer are shown to be defined and smaller in size over the range than `limit`, those of
+  /// change_count than `most_instances`.
+  bool amounts_below(double limit, double most_instances, const Interval& x) const;
 
  private:
   struct Step {

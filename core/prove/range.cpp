@@ -60,6 +60,7 @@ class Limits {
       for (const Statement& statement : program.layers[l].statements) {
         if (statement.op == Op::keep_fixed) continue;
         amounts_.push_back(statement.amount.compile(names));
+        largest_.push_back(statement.op == Op::change_count ? ProgramLimits::instances : largest_amount);
         targets_.push_back(is_geometric(statement.op) ? statement.part : statement.relation);
       }
     }
@@ -70,7 +71,7 @@ class Limits {
 
   /// Whether it is shown that nothing goes wrong on a piece of the range: amounts, and every cage, from jets.
   bool is_proven(const Interval& x) const {
-    if (!enclosure_.amounts_below(largest_amount, x)) return false;
+    if (!enclosure_.amounts_below(largest_amount, ProgramLimits::instances, x)) return false;
     const auto cases = enclosure_.cases_over(x, most_cases);
     return !cases.empty() && std::all_of(cases.begin(), cases.end(),
                                          [&](const std::vector<Case>& given) { return keeps_cages(x, given); });
@@ -86,7 +87,7 @@ class Limits {
     for (std::size_t i = 0; i < amounts_.size(); ++i) {
       const double amount = amounts_[i](values.data());
       if (std::isnan(amount)) return "the amount of " + targets_[i] + " would be undefined";
-      if (!(std::abs(amount) < largest_amount)) return "the amount of " + targets_[i] + " would be too large";
+      if (!(std::abs(amount) < largest_[i])) return "the amount of " + targets_[i] + " would be too large";
     }
     for (const PartIndex p : shape_.parts.indices()) {
       if (edited_.count(p) == 0 || !is_active(shape_, p, dissolved_)) continue;
@@ -178,6 +179,7 @@ class Limits {
   Evaluator evaluator_;
   Enclosure enclosure_;
   std::vector<CompiledAmount> amounts_;
+  std::vector<double> largest_;  ///< what each amount must be below
   std::vector<std::string> targets_;
   std::vector<RelationIndex> dissolved_;
   std::set<PartIndex> edited_;
@@ -241,8 +243,8 @@ End refine(Limits& limits, End found, double limit) {
 
 }  // namespace
 
-Range find_range(const Shape& shape, const Program& program, std::size_t layer, double limit) {
-  PARSEL_ASSERT(limit > 0, "the range has an inside");
+Range find_range(const Shape& shape, const Program& program, std::size_t layer, double low_limit, double high_limit) {
+  PARSEL_ASSERT(low_limit < 0 && high_limit > 0, "the range has an inside");
   PARSEL_ASSERT(layer < program.layers.size(), "the layer exists");
   Program applied = program;
   applied.layers.resize(layer + 1);
@@ -253,8 +255,8 @@ Range find_range(const Shape& shape, const Program& program, std::size_t layer, 
     range.min_reason = range.max_reason = at_rest;
     return range;
   }
-  const End low = refine(limits, search(limits, -limit), limit);
-  const End high = refine(limits, search(limits, limit), limit);
+  const End low = refine(limits, search(limits, low_limit), -low_limit);
+  const End high = refine(limits, search(limits, high_limit), high_limit);
   return {low.x, high.x, low.reason, high.reason};
 }
 

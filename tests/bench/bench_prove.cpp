@@ -82,7 +82,7 @@ double median_ms(F f) {
 void run(const Shape& shape, const char* name, const Program& p) {
   std::vector<RelationReport> reports;
   const double prove = median_ms([&] { reports = prove_relations(shape, p, 0, {}); });
-  const double range = median_ms([&] { find_range(shape, p, 0, 0.35); });
+  const double range = median_ms([&] { find_range(shape, p, 0, -0.35, 0.35); });
   const auto certified = std::count_if(reports.begin(), reports.end(),
                                        [](const RelationReport& r) { return r.proof == Proof::certified; });
   const auto held = std::count_if(reports.begin(), reports.end(),

@@ -20,7 +20,7 @@ namespace {
 Program proven(const Shape& shape, Program program, const std::set<std::string>& disabled = {}) {
   for (std::size_t l = 0; l < program.layers.size(); ++l) {
     Parameter& parameter = program.layers[l].parameter;
-    const Range range = find_range(shape, program, l, 0.35);
+    const Range range = find_range(shape, program, l, -0.35, 0.35);
     parameter.min = range.min;
     parameter.max = range.max;
     program.layers[l].relations = prove_relations(shape, program, l, disabled);

@@ -13,7 +13,7 @@ using hand::statement;
 namespace {
 
 Range range(const Shape& shape, const Statement& s, double limit) {
-  return find_range(shape, hand::program(shape, {s}), 0, limit);
+  return find_range(shape, hand::program(shape, {s}), 0, -limit, limit);
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ TEST_CASE("a slider stops where a row that had room runs into itself") {
   REQUIRE(extent / 2 > 1.1 * thickness);
 
   const auto of_group = [&](Op op, const std::string& amount, Anchor anchor) {
-    return find_range(shape, hand::program(shape, {hand::group_statement(op, "t1", amount, anchor)}), 0, 1);
+    return find_range(shape, hand::program(shape, {hand::group_statement(op, "t1", amount, anchor)}), 0, -1, 1);
   };
   const Range closer = of_group(Op::change_delta, "x1", Anchor::middle);
   CHECK(closer.min == doctest::Approx(thickness / (extent / 2) - 1).epsilon(1e-3));

@@ -22,6 +22,8 @@ export interface TraceStep {
 
 export interface Trace {
   readonly steps: readonly TraceStep[];
+  /** Why the slider goes no further, clauses with ids; "limit" where that is far enough. Older traces do not say. */
+  readonly ends?: { readonly min: string; readonly max: string };
   /** Sentences with ids. */
   readonly notes: readonly string[];
   readonly stop: string;

@@ -13,6 +13,8 @@ import { interrupt } from '../session/play';
 import { readLayer, solveLayer } from '../session/reading';
 import { compiled, document, settle, setValue, slide, sliderValue, step } from '../session/session';
 import { cleanShares, Ends } from './TrackEnds';
+import { reasonOfEnd } from './slider_end';
+import { inWords } from './why';
 
 const steps = 200;
 
@@ -23,6 +25,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
   const reading = useComputed(() => readingOf(entry));
   const { text, measure, rest, now } = reading.value;
   const value = sliderValue(entry);
+  const end = reasonOfEnd(entry, value);
 
   const onKeyDown = (event: KeyboardEvent) => {
     const sign = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
@@ -81,6 +84,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
           <TypedValue entry={entry} measure={measure} now={now} rest={rest} />
         </p>
       )}
+      {end !== null && <p class="quiet">Ends here: further on, {inWords(document.value, end)}.</p>}
     </div>
   );
 }

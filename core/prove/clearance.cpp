@@ -1,0 +1,143 @@
+#include "core/prove/clearance.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "core/base/tolerance.h"
+#include "core/prove/scope.h"
+
+namespace parsel {
+
+namespace {
+
+/// Cross products of edges shorter than this have no direction.
+constexpr double parallel = 1e-6;
+
+/// Unit mean edges and unit normals of a hexahedron's faces, by local axis.
+struct Axes {
+  std::array<Vec3, 3> edges, normals;
+};
+
+Axes axes_of(const Corners& corners) {
+  Axes axes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vec3 edge = Vec3::Zero();
+    for (int k = 0; k < 8; ++k) edge += corner_sign(k, static_cast<int>(axis)) * corners.row(k).transpose();
+    axes.edges[axis] = edge.normalized();
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    axes.normals[axis] = axes.edges[(axis + 1) % 3].cross(axes.edges[(axis + 2) % 3]).normalized();
+  return axes;
+}
+
+struct Extent {
+  double low, high;
+};
+
+Extent extent_along(const Corners& corners, const Vec3& direction) {
+  const Eigen::Matrix<double, 8, 1> along = corners * direction;
+  return {along.minCoeff(), along.maxCoeff()};
+}
+
+/// How far one must move along a direction to be out of the other; negative when it is.
+double overlap_along(const Corners& a, const Corners& b, const Vec3& direction) {
+  const Extent first = extent_along(a, direction), second = extent_along(b, direction);
+  return std::min(first.high - second.low, second.high - first.low);
+}
+
+double depth(const Corners& a, const Corners& b) {
+  const Axes first = axes_of(a), second = axes_of(b);
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Vec3& direction) {
+    if (least > 0) least = std::min(least, overlap_along(a, b, direction));
+  };
+  for (const Vec3& normal : first.normals) look(normal);
+  for (const Vec3& normal : second.normals) look(normal);
+  for (const Vec3& edge : first.edges) {
+    for (const Vec3& other : second.edges) {
+      const Vec3 across = edge.cross(other);
+      if (across.norm() > parallel) look(across.normalized());
+    }
+  }
+  return least;
+}
+
+double thickness(const Corners& corners) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& normal : axes_of(corners).normals) {
+    const Extent extent = extent_along(corners, normal);
+    least = std::min(least, extent.high - extent.low);
+  }
+  return least;
+}
+
+}  // namespace
+
+Clearance::Clearance(const Shape& shape, const Program& program, std::size_t layer)
+    : shape_(shape), layer_(layer), evaluator_(program, shape) {
+  for (const Layer& l : program.layers) values_.push_back(l.parameter.value);
+  const Scope scope = scope_of(shape, program, layer, {});
+  edited_ = scope.edited;
+  dissolved_ = scope.dissolved;
+  at_rest_ = state_at(0);
+}
+
+State Clearance::state_at(double x) const {
+  std::vector<double> values = values_;
+  values[layer_] = x;
+  return evaluator_(values);
+}
+
+std::vector<Clearance::Body> Clearance::bodies(const State& state) const {
+  const RelationIndex none(shape_.relations.size());
+  std::vector<Body> result;
+  for (const PartIndex p : shape_.parts.indices()) {
+    const Part& part = shape_.parts[p];
+    if (part.is_virtual()) continue;
+    const bool is_instance =
+        part.group && std::find(dissolved_.begin(), dissolved_.end(), *part.group) == dissolved_.end();
+    if (is_instance && state.groups[*part.group].instances.size() != at_rest_.groups[*part.group].instances.size())
+      continue;
+    const Corners& corners = state.parts[p];
+    result.push_back({p, is_instance ? *part.group : none, corners, corners.colwise().minCoeff().transpose(),
+                      corners.colwise().maxCoeff().transpose()});
+  }
+  return result;
+}
+
+std::string Clearance::fault(double x) const {
+  const RelationIndex none(shape_.relations.size());
+  const std::vector<Body> now = bodies(state_at(x));
+  // Sweep along x: a body meets those before it that have not ended yet.
+  std::vector<std::size_t> order(now.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return std::pair(now[a].low.x(), a) < std::pair(now[b].low.x(), b); });
+  std::vector<std::size_t> open;
+  for (const std::size_t i : order) {
+    const Body& body = now[i];
+    open.erase(std::remove_if(open.begin(), open.end(), [&](std::size_t o) { return now[o].high.x() < body.low.x(); }),
+               open.end());
+    for (const std::size_t o : open) {
+      const Body& other = now[o];
+      if (edited_.count(body.part) == 0 && edited_.count(other.part) == 0) continue;
+      if (body.group == other.group && body.group != none) continue;
+      if ((body.low.array() > other.high.array()).any() || (other.low.array() > body.high.array()).any()) continue;
+      const Corners& rest = at_rest_.parts[body.part];
+      const Corners& rest_of_other = at_rest_.parts[other.part];
+      const double slight = std::min(delta_both_edited, std::min(thickness(rest), thickness(rest_of_other)) / 2);
+      const double deep = depth(body.corners, other.corners);
+      if (deep <= slight) continue;
+      const double before = depth(rest, rest_of_other);
+      if (before > slight || deep <= slight + std::max(before, 0.0)) continue;
+      const auto& [first, second] = std::minmax(shape_.parts[body.part].id, shape_.parts[other.part].id);
+      return first + " and " + second + " would run into each other";
+    }
+    open.push_back(i);
+  }
+  return "";
+}
+
+}  // namespace parsel

@@ -1,0 +1,218 @@
+#include "core/prove/reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "core/prove/clearance.h"
+#include "core/prove/deviation.h"
+#include "core/prove/prove.h"
+#include "core/prove/scope.h"
+
+namespace parsel {
+
+namespace {
+
+constexpr int steps = 24;
+constexpr int halvings = 14;
+constexpr double decimals = 1e4;
+/// Where a relation is off by this share of what it may be it ends the range, so that the proof has room to close.
+constexpr double near_limit = 0.98;
+constexpr int most_cuts = 4, most_halvings = 3;
+
+/// What goes wrong at a value of the parameter, a clause; empty when nothing does.
+using Fault = std::function<std::string(double)>;
+
+struct End {
+  double x;
+  std::string reason;
+};
+
+/// From `core`, where nothing counts as wrong yet unless `from_core`, outwards to `end`: the last value before a fault.
+End cut(double core, const End& end, const Fault& fault, bool from_core) {
+  if (core == end.x) return end;
+  if (std::string here = from_core ? fault(core) : ""; !here.empty()) return {core, std::move(here)};
+  double good = core;
+  for (int i = 1; i <= steps; ++i) {
+    double bad = i == steps ? end.x : core + (end.x - core) * i / steps;
+    std::string reason = fault(bad);
+    if (reason.empty()) {
+      good = bad;
+      continue;
+    }
+    for (int k = 0; k < halvings; ++k) {
+      const double middle = (good + bad) / 2;
+      std::string here = fault(middle);
+      if (here.empty()) {
+        good = middle;
+      } else {
+        bad = middle;
+        reason = std::move(here);
+      }
+    }
+    const double rounded = std::trunc(good * decimals) / decimals;
+    return {std::abs(rounded) < std::abs(core) ? core : rounded, std::move(reason)};
+  }
+  return end;
+}
+
+void cut(Range& range, const Range& core, const Fault& fault, bool from_core) {
+  const End low = cut(core.min, {range.min, range.min_reason}, fault, from_core);
+  const End high = cut(core.max, {range.max, range.max_reason}, fault, from_core);
+  range = {low.x, high.x, low.reason, high.reason};
+}
+
+/// Halves what lies beyond the core; all of it the last time.
+void shrink(Range& range, const Range& core, bool all) {
+  const auto nearer = [&](double x, double inner) {
+    return all ? inner : std::trunc((x + inner) / 2 * decimals) / decimals;
+  };
+  const std::string reason = "what holds could not be proved any further";
+  if (range.min < core.min) {
+    range.min = std::min(core.min, nearer(range.min, core.min));
+    range.min_reason = reason;
+  }
+  if (range.max > core.max) {
+    range.max = std::max(core.max, nearer(range.max, core.max));
+    range.max_reason = reason;
+  }
+}
+
+std::string parting_words(const Shape& shape, const Relation& relation) {
+  const std::string& first = shape.parts[relation.parts[0]].id;
+  switch (relation.kind) {
+    case RelationKind::reflection:
+      return first + " and " + shape.parts[relation.parts[1]].id + " would be mirror images no longer";
+    case RelationKind::translation:
+    case RelationKind::rotation:
+      return "the instances of " + shape.parts[relation.parts[0]].label + " would not be alike any more";
+    case RelationKind::ground:
+      return first + " would leave the floor";
+    case RelationKind::point:
+    case RelationKind::line:
+    case RelationKind::face:
+    case RelationKind::volume:
+      return first + " and " + shape.parts[relation.parts[1]].id + " would come apart";
+  }
+  return "";
+}
+
+/// A relation, and how far it may be off beyond the core.
+struct Kept {
+  Constraint constraint;
+  double most;
+};
+
+class Extension {
+ public:
+  Extension(const Shape& shape, const Program& program, std::size_t layer, const std::set<std::string>& disabled)
+      : shape_(shape),
+        program_(program),
+        layer_(layer),
+        disabled_(disabled),
+        scope_(scope_of(shape, program, layer, disabled)) {
+    program_.layers.resize(layer + 1);
+  }
+
+  SliderReach operator()(double least, double low, double high) {
+    Range range = find_range(shape_, program_, layer_, low, high);
+    core_ = range;
+    core_.min = std::max(range.min, -least);
+    core_.max = std::min(range.max, least);
+    if (is_core(range)) return {range, prove(range)};
+    const Clearance clearance(shape_, program_, layer_);
+    cut(
+        range, core_, [&](double x) { return clearance.fault(x); }, true);
+    return keep_relations(std::move(range));
+  }
+
+ private:
+  bool is_core(const Range& range) const { return range.min >= core_.min && range.max <= core_.max; }
+
+  std::vector<RelationReport> prove(const Range& range) {
+    Parameter& parameter = program_.layers[layer_].parameter;
+    parameter.min = range.min;
+    parameter.max = range.max;
+    return prove_relations(shape_, program_, layer_, disabled_);
+  }
+
+  SliderReach keep_relations(Range range) {
+    std::vector<RelationReport> reports = prove(range);
+    const bool is_clean = std::all_of(reports.begin(), reports.end(), [](const RelationReport& report) {
+      return report.status == RelationStatus::disabled ||
+             (report.status == RelationStatus::held && report.proof == Proof::certified && report.worst <= clean_drift);
+    });
+    if (is_clean || is_core(range)) return {std::move(range), std::move(reports)};
+    const std::vector<RelationReport> within = prove(core_);
+    for (int cuts = 0, shrinks = 0; !is_core(range);) {
+      const std::vector<Kept> lost = lost_in(reports, within);
+      if (lost.empty()) return {std::move(range), std::move(reports)};
+      const Range before = range;
+      if (cuts++ < most_cuts) cut(range, core_, drifting(lost), false);
+      if (range.min == before.min && range.max == before.max) shrink(range, core_, ++shrinks > most_halvings);
+      if (!is_core(range)) reports = prove(range);
+    }
+    return {std::move(range), within};
+  }
+
+  /// What holds in the core, and does not as well over the whole range.
+  std::vector<Kept> lost_in(const std::vector<RelationReport>& whole, const std::vector<RelationReport>& within) const {
+    std::map<std::string, const RelationReport*> by_id;
+    for (const RelationReport& report : within) by_id[report.id] = &report;
+    std::vector<Kept> lost;
+    for (const RelationReport& report : whole) {
+      const RelationReport& inside = *by_id.at(report.id);
+      if (inside.status != RelationStatus::held) continue;
+      const RelationIndex relation = *shape_.find_relation(report.id);
+      const double tolerance = tolerance_of(shape_.relations[relation], scope_);
+      const double most =
+          follows_group(relation) ? tolerance : std::min(tolerance, std::max(inside.worst, clean_drift));
+      const bool is_kept = report.status == RelationStatus::held && report.worst <= most + noise;
+      const bool is_proved = inside.proof == Proof::sampled || report.proof == Proof::certified;
+      if (!is_kept || !is_proved) lost.push_back({make_constraint(shape_, relation), most});
+    }
+    return lost;
+  }
+
+  /// Whether a joint is that of an instance, which goes where its group takes it and may slide along its neighbour.
+  bool follows_group(RelationIndex relation) const {
+    const Relation& joint = shape_.relations[relation];
+    return joint.is_attachment() && std::any_of(joint.parts.begin(), joint.parts.end(), [&](PartIndex p) {
+             const Part& part = shape_.parts[p];
+             return part.group && !part.is_virtual() &&
+                    std::find(scope_.dissolved.begin(), scope_.dissolved.end(), *part.group) == scope_.dissolved.end();
+           });
+  }
+
+  Fault drifting(const std::vector<Kept>& kept) const {
+    std::vector<double> values;
+    for (const Layer& layer : program_.layers) values.push_back(layer.parameter.value);
+    return [this, &kept, values, evaluator = Evaluator(program_, shape_)](double x) mutable -> std::string {
+      values[layer_] = x;
+      const State state = evaluator(values);
+      for (const Kept& one : kept) {
+        if (deviation(one.constraint, state) > near_limit * one.most)
+          return parting_words(shape_, *one.constraint.relation);
+      }
+      return "";
+    };
+  }
+
+  const Shape& shape_;
+  Program program_;
+  std::size_t layer_;
+  const std::set<std::string>& disabled_;
+  Scope scope_;
+  Range core_;
+};
+
+}  // namespace
+
+SliderReach reach_of_layer(const Shape& shape, const Program& program, std::size_t layer,
+                           const std::set<std::string>& disabled, double least, double low, double high) {
+  PARSEL_ASSERT(least > 0 && low <= -least && high >= least, "the range that the search looked at is within");
+  return Extension(shape, program, layer, disabled)(least, low, high);
+}
+
+}  // namespace parsel
