@@ -109,6 +109,8 @@ export function fakeCore(): FakeCore {
       schema: {},
       numbered: ['left', 'right'],
     }),
+    compose: async (_, program) => program,
+    judge: async () => ({ of: 0, lost: [], settings: 0, failed: 0, failure: '', stops: [] }),
     siblings: async () => ({ siblings: [], rejected: 0, reasons: [] }),
     readPlainly: async () => core.plain,
     readReplies: async () => core.inference,

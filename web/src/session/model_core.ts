@@ -33,6 +33,10 @@ export interface ModelCore {
   open(files: ModelFiles, options: Options, labels?: Labels): Promise<Shape>;
   /** One layer, from a seed edit. */
   propagate(model: OpenModel, edit: EditInput, options: Options): Promise<Propagation>;
+  /** The program with its layers from number `first` on composed onto those before them. */
+  compose(model: OpenModel, program: Program, first: number): Promise<Program>;
+  /** What the layers keep together of what each keeps alone, and how far each slider may go now. */
+  judge(model: OpenModel, program: Program): Promise<MethodResult<'judge'>>;
   /** The model's file with the program applied. */
   apply(model: OpenModel, program: Program, options: ExportOptions): Promise<Exported>;
   /** What a request means, read without a language model. `mentioned` as below. */
@@ -73,6 +77,13 @@ export function modelCore(client: CoreClient): ModelCore {
     async propagate(model, edit, options) {
       const { result } = await client.call('propagate', { edit }, { ...options, needs: stateOf(model) });
       return result as Propagation;
+    },
+    async compose(model, program, first) {
+      const { result } = await client.call('compose', { program, first }, { needs: stateOf(model) });
+      return result.program as Program;
+    },
+    async judge(model, program) {
+      return (await client.call('judge', { program }, { needs: stateOf(model) })).result;
     },
     async readPlainly(model, request, mentioned) {
       const needs = stateOf(model);

@@ -11,6 +11,7 @@ import { HandPanel } from './HandPanel';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
 import { useRecorded } from './recorded';
+import { StackVerdict } from './StackVerdict';
 import type { FeatureKind } from './words';
 
 interface EditsProps {
@@ -46,6 +47,7 @@ export function EditsPanel({ pickKind }: EditsProps) {
           <LayerCard key={entry.key} entry={entry} first={i === 0} last={i === layers.length - 1} />
         ))}
       </ul>
+      <StackVerdict />
       {pickKind.value === null ? (
         <>
           <Suggestions />

@@ -8,7 +8,8 @@ import { titleOf } from '../session/layers';
 import { formatMeasure, larger, type Measure, measureOf, parseMeasure } from '../session/measure';
 import { interrupt } from '../session/play';
 import { readLayer, solveLayer } from '../session/reading';
-import { compiled, document, settle, setValue, slide, sliderValue, step } from '../session/session';
+import { compiled, document, settle, setValue, slide, sliderValue, step, stops } from '../session/session';
+import { Closed, stopWords } from './StackVerdict';
 
 const steps = 200;
 
@@ -19,6 +20,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
   const reading = useComputed(() => readingOf(entry));
   const { text, measure, rest, now } = reading.value;
   const value = sliderValue(entry);
+  const stopped = entry.enabled ? stopWords(entry) : null;
 
   const onKeyDown = (event: KeyboardEvent) => {
     const sign = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
@@ -33,6 +35,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
         class="track"
         style={{ '--zero': share(0), '--low': share(Math.min(0, value)), '--span': Math.abs(share(value) - share(0)) }}
       >
+        <Closed entry={entry} share={share} />
         <span class="zero" />
         <input
           type="range"
@@ -70,6 +73,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
           <TypedValue entry={entry} measure={measure} now={now} rest={rest} />
         </p>
       )}
+      {stopped !== null && <p class="quiet stopped">{stopped}</p>}
     </div>
   );
 }
@@ -131,9 +135,10 @@ function TypedValue({ entry, measure, now, rest }: TypedValueProps) {
     const found = solveLayer(entry, measure, wanted);
     setValue(entry.key, found);
     const { min, max } = entry.layer.parameter;
-    const [reached = wanted] = readLayer(entry, measure, [found]);
+    const [reached = wanted] = readLayer(entry, measure, [sliderValue(entry)]);
     const show = (value: number) => formatMeasure(measure.what, value, like);
-    ended.value = (found === min || found === max) && show(wanted) !== show(reached);
+    const { min: low, max: high } = stops.peek().get(entry.key) ?? { min, max };
+    ended.value = (found <= Math.max(min, low) || found >= Math.min(max, high)) && show(wanted) !== show(reached);
   };
   const said = wrong.value
     ? `Type a ${measure.what === 'count' ? 'number' : `number, such as ${formatMeasure(measure.what, now, like)}`}.`
