@@ -67,9 +67,7 @@ export function emptyProgram({ name, sha256 }: Shape): Program {
 export function programOf(shape: Shape, layers: readonly LayerEntry[]): Program {
   return {
     ...emptyProgram(shape),
-    layers: byThemselves(
-      layers.map(({ layer, value }) => ({ ...layer, parameter: { ...layer.parameter, value } })),
-    ),
+    layers: byThemselves(layers.map(({ layer, value }) => ({ ...layer, parameter: { ...layer.parameter, value } }))),
   };
 }
 

@@ -9,7 +9,20 @@ import { activeLayers } from './evaluation';
 import { axes, type Measure, measureOf, pointIn } from './measure';
 import type { ModelCore } from './model_core';
 import { readLayer } from './reading';
-import { compiled, document, draft, entriesOf, entryOf, keepDraft, onto, say, settle, slide, sliderValue, useCore } from './session';
+import {
+  compiled,
+  document,
+  draft,
+  entriesOf,
+  entryOf,
+  keepDraft,
+  onto,
+  say,
+  settle,
+  slide,
+  sliderValue,
+  useCore,
+} from './session';
 import { sentence } from './tasks';
 
 /** A feature of a part that a hand holds; the whole part is moved, a face stretches it. */
