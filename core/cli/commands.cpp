@@ -6,7 +6,6 @@ namespace parsel::cli {
 extern const Command apply_command;
 extern const Command cad_command;
 extern const Command check_command;
-extern const Command compose_command;
 extern const Command convert_command;
 extern const Command evaluate_command;
 extern const Command family_command;
@@ -20,10 +19,10 @@ extern const Command sample_command;
 extern const Command score_command;
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all = {inspect_command,   read_command,    prompt_command,  reply_command,
-                                           propagate_command, compose_command, apply_command,   sample_command,
-                                           check_command,     score_command,   convert_command, evaluate_command,
-                                           cad_command,       family_command,  gallery_command};
+  static const std::vector<Command> all = {inspect_command,   read_command,    prompt_command,   reply_command,
+                                           propagate_command, apply_command,   sample_command,   check_command,
+                                           score_command,     convert_command, evaluate_command, cad_command,
+                                           family_command,    gallery_command};
   return all;
 }
 
