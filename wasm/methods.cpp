@@ -15,8 +15,10 @@
 #include "core/infer/plain_reading.h"
 #include "core/infer/prompt.h"
 #include "core/propagate/clean.h"
+#include "core/propagate/compose.h"
 #include "core/propagate/propagate.h"
 #include "core/propagate/solve.h"
+#include "core/prove/stack.h"
 #include "core/prove/together.h"
 #include "core/shape/abstraction.h"
 #include "core/split/split.h"
@@ -176,6 +178,31 @@ Result<Output> extend(const Input& input) {
   if (!to.is_number()) return wrong_parameter("to", "a number");
   extend_range(model->shape, *program, layer.get<std::size_t>(), to.get<double>());
   return Output{{{"program", to_json(*program)}}, {}};
+}
+
+/// program: parsel/program v1 that fits the open model.
+Result<Program> program_of(const Input& input) {
+  if (!model) return no_model();
+  Result<Program> program = program_from_json(input.parameters.value("program", json()));
+  if (!program.ok()) return program;
+  if (const Status valid = validate(*program, model->shape); !valid.ok()) return valid.error();
+  return program;
+}
+
+/// See program_of(); first: the number of the first layer that is composed onto those before it.
+Result<Output> compose_layers(const Input& input) {
+  const Result<Program> program = program_of(input);
+  if (!program.ok()) return program.error();
+  const json first = input.parameters.value("first", json());
+  if (!first.is_number_unsigned()) return wrong_parameter("first", "a whole number");
+  return Output{{{"program", to_json(compose(model->shape, *program, first.get<std::size_t>()))}}, {}};
+}
+
+/// See program_of(); every layer's slider stands at its value.
+Result<Output> judge(const Input& input) {
+  const Result<Program> program = program_of(input);
+  if (!program.ok()) return program.error();
+  return Output{to_json(judge_stack(model->shape, *program)), {}};
 }
 
 /// program: parsel/program v1; values: one a layer; animate: a parameter's name, or morph: true, for a morph target of
@@ -363,6 +390,8 @@ constexpr std::array all_methods = {
     Method{"extend", extend},
     Method{"apply", apply},
     Method{"siblings", siblings},
+    Method{"compose", compose_layers},
+    Method{"judge", judge},
     Method{"gallery", gallery},
     Method{"read_plainly", read_wish_plainly},
     Method{"prompts", prompts},

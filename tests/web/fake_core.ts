@@ -113,6 +113,8 @@ export function fakeCore(): FakeCore {
     propagateClean: (model, asked, options) => core.propagate(model, asked, options),
     offers: async () => [],
     extend: async (_, program) => program,
+    compose: async (_, program) => program,
+    judge: async () => ({ of: 0, lost: [], settings: 0, failed: 0, failure: '', stops: [] }),
     siblings: async () => ({ siblings: [], rejected: 0, reasons: [] }),
     readPlainly: async () => core.plain,
     readReplies: async () => core.inference,

@@ -85,6 +85,25 @@ describe('the boundary between the page and the core', () => {
     expect(rangeOf(v.parse(methodSchemas.extend.result, resultOf(extended)).program)).toBeGreaterThan(rangeOf(program));
   });
 
+  it('composes layers onto each other and judges them', () => {
+    const { message, buffers } = invoke('gallery', {});
+    const { models } = (message as { result: { models: { id: string; requests: { edit: unknown }[] }[] } }).result;
+    const index = models.findIndex((model) => model.id === 'gazebo');
+    invoke('open', { name: 'gazebo', external: [] }, [buffers[index] as Uint8Array]);
+    const [first, second] = [0, 0].map((number, i) => {
+      const { message } = invoke('propagate', { edit: models[index]?.requests[number]?.edit });
+      const text = JSON.stringify((message as { result: { program: unknown } }).result.program);
+      return JSON.parse(text.replaceAll('x1', `x${i + 1}`)) as { layers: unknown[] };
+    });
+    const program = { ...first, layers: [...(first?.layers ?? []), ...(second?.layers ?? [])] };
+    const { result } = invoke('compose', { program, first: 1 }).message as { result: unknown };
+    const composed = v.parse(methodSchemas.compose.result, result).program;
+    const verdictOf = (of: unknown) =>
+      v.parse(methodSchemas.judge.result, (invoke('judge', { program: of }).message as { result: unknown }).result);
+    expect(verdictOf(composed).lost.length).toBeLessThan(verdictOf(program).lost.length);
+    expect(verdictOf(composed).stops.length).toBe(2);
+  });
+
   it('makes prompts of a request and reads the replies', () => {
     const { buffers } = invoke('gallery', {});
     invoke('open', { name: 'chair', external: [] }, [buffers[0] as Uint8Array]);

@@ -1,4 +1,5 @@
 // What a person works on, as one immutable value: the model, the layers with their values, what is hidden and renamed.
+import { byThemselves } from '../program/rest';
 import type { Layer, LocalTriple, Program, Shape, Statement } from '../program/types';
 import type { ModelFiles } from '../scene/load';
 import type { Trace } from './trace';
@@ -81,11 +82,11 @@ export function emptyProgram({ name, sha256 }: Shape): Program {
   return { format: 'parsel/program', version: 1, shape: { name, sha256 }, layers: [] };
 }
 
-/** The program of some layers, with their present values. */
+/** The program of some layers, with their present values; what names others' parameters has them at 0. */
 export function programOf(shape: Shape, layers: readonly LayerEntry[]): Program {
   return {
     ...emptyProgram(shape),
-    layers: layers.map(({ layer, value }) => ({ ...layer, parameter: { ...layer.parameter, value } })),
+    layers: byThemselves(layers.map(({ layer, value }) => ({ ...layer, parameter: { ...layer.parameter, value } }))),
   };
 }
 

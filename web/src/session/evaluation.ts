@@ -2,6 +2,7 @@
 import { computed, effect, type ReadonlySignal, type Signal, signal } from '@preact/signals';
 import { checkProgram } from '../program/check';
 import { compileProgram, type Evaluator } from '../program/compile';
+import { byThemselves } from '../program/rest';
 import { errorMessage, type Layer, type Shape } from '../program/types';
 import { type Document, emptyProgram, type LayerEntry, type OpenModel, programOf } from './document';
 
@@ -10,11 +11,21 @@ export type Compiled =
   | { readonly kind: 'ready'; readonly evaluator: Evaluator; readonly keys: readonly number[] }
   | { readonly kind: 'refused'; readonly text: string };
 
+/** How far a slider may go where the others stand, and what goes wrong beyond; no reason at an end of its range. */
+export interface Stop {
+  readonly min: number;
+  readonly max: number;
+  readonly minReason: string;
+  readonly maxReason: string;
+}
+
 export interface Evaluation {
   /** A layer that is shown but no part of the work yet: what a hand is pulling. */
   readonly draft: Signal<LayerEntry | null>;
   /** The program of the active layers. Compiled anew when the layers change, not when only their values do. */
   readonly compiled: ReadonlySignal<Compiled>;
+  /** How far sliders may go where the others stand, by layer: see verdict.ts. */
+  readonly stops: Signal<ReadonlyMap<number, Stop>>;
   /** Counts evaluations: what shows the state reads this and then the evaluator. */
   readonly step: ReadonlySignal<number>;
   /** What the evaluator's parameters belong to, in their order: the active layers and the draft. */
@@ -37,7 +48,7 @@ const fits = new WeakMap<Layer, { readonly shape: Shape; readonly text: string |
 export function misfit(shape: Shape, layer: Layer): string | null {
   const known = fits.get(layer);
   if (known?.shape === shape) return known.text;
-  const checked = checkProgram({ ...emptyProgram(shape), layers: [layer] }, shape);
+  const checked = checkProgram({ ...emptyProgram(shape), layers: byThemselves([layer]) }, shape);
   const text = checked.ok ? null : errorMessage(checked.error);
   fits.set(layer, { shape, text });
   return text;
@@ -60,6 +71,7 @@ export function createEvaluation(document: ReadonlySignal<Document>): Evaluation
   const draft = signal<LayerEntry | null>(null);
   const step = signal(0);
   const restIsShown = signal(false);
+  const stops = signal<ReadonlyMap<number, Stop>>(new Map());
   const liveValues = new Map<number, number>();
   let values = new Float64Array(0);
   let lastStructure: readonly unknown[] = [];
@@ -99,6 +111,7 @@ export function createEvaluation(document: ReadonlySignal<Document>): Evaluation
   return {
     draft,
     compiled,
+    stops,
     step,
     shownLayers,
     entryOf: (key) => [...document.peek().layers, draft.peek()].find((entry) => entry?.key === key) ?? undefined,
@@ -108,7 +121,8 @@ export function createEvaluation(document: ReadonlySignal<Document>): Evaluation
       const at = now.kind === 'ready' ? now.keys.indexOf(key) : -1;
       if (now.kind !== 'ready' || at < 0) return;
       const { min, max } = now.evaluator.parameters[at] ?? { min: 0, max: 0 };
-      values[at] = Math.min(max, Math.max(min, value));
+      const stop = stops.peek().get(key) ?? { min, max };
+      values[at] = Math.min(max, stop.max, Math.max(min, stop.min, value));
       liveValues.set(key, values[at] as number);
       restIsShown.value = false;
       now.evaluator.evaluate(values);

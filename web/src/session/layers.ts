@@ -1,6 +1,7 @@
 // The edits: adding, changing and arranging layers, each as one step of the history.
 import { batch } from '@preact/signals';
 import { checkProgram } from '../program/check';
+import { atRest } from '../program/rest';
 import { titleOf } from '../program/title';
 import { errorMessage, type Layer, type Program } from '../program/types';
 import { type Document, type LayerEntry, programOf, withFreshParameters, withRequest } from './document';
@@ -176,7 +177,11 @@ export function createLayers(
       );
     },
     removeLayer(key) {
-      changeLayers('remove edit', (layers) => layers.filter((entry) => entry.key !== key));
+      changeLayers('remove edit', (layers) => {
+        const left = layers.filter((entry) => entry.key !== key);
+        const known = new Set(left.map(({ layer }) => layer.parameter.name));
+        return left.map((entry) => ({ ...entry, layer: atRest(entry.layer, known) }));
+      });
     },
     setEnabled(key, enabled) {
       changeLayers(enabled ? 'switch edit on' : 'switch edit off', (layers) => replace(layers, key, { enabled }));

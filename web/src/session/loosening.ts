@@ -2,6 +2,7 @@
 import { checkProgram } from '../program/check';
 import { compileProgram, type Evaluator } from '../program/compile';
 import { movedParts } from '../program/edited';
+import { byThemselves } from '../program/rest';
 import { isGroup, type Layer, type Shape, type ShapeRelation } from '../program/types';
 import { emptyProgram } from './document';
 import { type Measure, measureOf, pointIn, readAt } from './measure';
@@ -48,7 +49,7 @@ export function cleanEnds(shape: Shape, layer: Layer): { readonly min: number; r
 function search(shape: Shape, layer: Layer, relation: ShapeRelation): Loosening | null {
   const seed = layer.statements.find(({ why }) => why?.kind === 'seed') ?? layer.statements[0];
   const measure = measureOf(shape, seed);
-  const checked = checkProgram({ ...emptyProgram(shape), layers: [layer] }, shape);
+  const checked = checkProgram({ ...emptyProgram(shape), layers: byThemselves([layer]) }, shape);
   if (isGroup(relation) || measure === null || !checked.ok) return null;
   const evaluator = compileProgram(checked.value, shape);
   const off = deviation(shape, relation);

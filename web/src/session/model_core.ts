@@ -49,6 +49,10 @@ export interface ModelCore {
   offers(model: OpenModel): Promise<MethodResult<'offers'>['offers']>;
   /** The program with a layer's range stretched to `to`, or as far towards it as everything holds. */
   extend(model: OpenModel, program: Program, layer: number, to: number): Promise<Program>;
+  /** The program with its layers from number `first` on composed onto those before them. */
+  compose(model: OpenModel, program: Program, first: number): Promise<Program>;
+  /** What the layers keep together of what each keeps alone, and how far each slider may go now. */
+  judge(model: OpenModel, program: Program): Promise<MethodResult<'judge'>>;
   /** The model's file with the program applied. */
   apply(model: OpenModel, program: Program, options: ExportOptions): Promise<Exported>;
   /** What a request means, read without a language model. `mentioned` as below. */
@@ -128,6 +132,13 @@ export function modelCore(client: CoreClient): ModelCore {
     async extend(model, program, layer, to) {
       const { result } = await client.call('extend', { program, layer, to }, { needs: stateOf(model) });
       return result.program as Program;
+    },
+    async compose(model, program, first) {
+      const { result } = await client.call('compose', { program, first }, { needs: stateOf(model) });
+      return result.program as Program;
+    },
+    async judge(model, program) {
+      return (await client.call('judge', { program }, { needs: stateOf(model) })).result;
     },
     async readPlainly(model, request, mentioned) {
       const needs = stateOf(model);

@@ -9,7 +9,20 @@ import { activeLayers } from './evaluation';
 import { axes, type Measure, measureOf, pointIn } from './measure';
 import type { ModelCore } from './model_core';
 import { readLayer } from './reading';
-import { compiled, document, draft, entriesOf, entryOf, keepDraft, say, settle, slide, sliderValue } from './session';
+import {
+  compiled,
+  document,
+  draft,
+  entriesOf,
+  entryOf,
+  keepDraft,
+  onto,
+  say,
+  settle,
+  slide,
+  sliderValue,
+  useCore,
+} from './session';
 import { sentence } from './tasks';
 
 /** A feature of a part that a hand holds; the whole part is moved, a face stretches it. */
@@ -124,7 +137,9 @@ export async function beginPull(core: ModelCore, grab: Grab, request: string): P
   abort = new AbortController();
   const { signal: cancelled } = abort;
   try {
-    const found = await core.propagate(model, { seed: all, disabled, hints: {} }, { signal: cancelled });
+    useCore(core);
+    const alone = await core.propagate(model, { seed: all, disabled, hints: {} }, { signal: cancelled });
+    const found = await onto(model, alone);
     if (pull.peek() !== begun || document.peek().model !== model) return false;
     const [entry] = entriesOf({ ...found, program: withRequest(found.program, request) }) ?? [];
     if (entry === undefined) throw new Error('Nothing came of it');

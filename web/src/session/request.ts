@@ -223,9 +223,9 @@ export function createRequests({ session, models, questionOf, votes, play, aim }
     const state = request.peek();
     if (core === null || state.kind !== 'understood' || state.edit === null) return;
     const own = ++attempt;
-    const found = await session.find(core, state.edit, state.request);
-    if (found === null || own !== attempt) return;
     const { made } = state;
+    const found = await session.find(core, state.edit, state.request, made?.key);
+    if (found === null || own !== attempt) return;
     const isThere = made !== null && document.peek().layers.some(({ key }) => key === made.key);
     if (made !== null && isThere) {
       if (session.amendLayer(made.mark, made.key, found)) finish(state, made);

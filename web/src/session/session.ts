@@ -7,9 +7,10 @@ import { History, type Mark } from './history';
 import { createLayers, type Layers } from './layers';
 import type { ModelCore, Propagation } from './model_core';
 import { createParts, type Parts } from './parts';
+import { createStack, type Stack } from './stack';
 import { createTasks, type Tasks } from './tasks';
 
-export interface Session extends Evaluation, Layers, Parts, Tasks {
+export interface Session extends Evaluation, Layers, Parts, Stack, Tasks {
   readonly document: ReadonlySignal<Document>;
   readonly undoLabel: ReadonlySignal<string | null>;
   readonly redoLabel: ReadonlySignal<string | null>;
@@ -21,8 +22,11 @@ export interface Session extends Evaluation, Layers, Parts, Tasks {
   change(label: string, edit: (document: Document) => Document): void;
   /** Puts a document in place of the present one, as one step that undo takes back. */
   replaceDocument(next: Document, label: string): void;
-  /** Propagates a seed edit through the shape; null, and a sentence, when that fails or the model is another by then. */
-  find(core: ModelCore, edit: EditInput, request: string): Promise<Propagation | null>;
+  /**
+   * Propagates a seed edit through the shape, behind the present layers or in place of the one named `replacing`; null, and
+   * a sentence, when that fails or the model is another by then.
+   */
+  find(core: ModelCore, edit: EditInput, request: string, replacing?: number): Promise<Propagation | null>;
   /** The same, and adds the layer; answers its key, or null. */
   propagate(core: ModelCore, edit: EditInput, request: string): Promise<number | null>;
 }
@@ -35,11 +39,15 @@ export function createSession(): Session {
   const layers = createLayers(history, evaluation, tasks.say);
   const parts = createParts(history);
 
-  async function find(core: ModelCore, edit: EditInput, request: string): Promise<Propagation | null> {
+  const stack = createStack(history);
+  const restack = (key: number) => void stack.restack(key);
+
+  async function find(core: ModelCore, edit: EditInput, request: string, replacing?: number) {
     const { model } = document.peek();
     if (model === null) return null;
-    const found = await tasks.run('Working out how the other parts follow', (options) =>
-      core.propagate(model, edit, options),
+    stack.useCore(core);
+    const found = await tasks.run('Working out how the other parts follow', async (options) =>
+      stack.onto(model, await core.propagate(model, edit, options), replacing),
     );
     if (found === null || document.peek().model !== model) return null;
     return { ...found, program: withRequest(found.program, request) };
@@ -50,6 +58,25 @@ export function createSession(): Session {
     ...evaluation,
     ...layers,
     ...parts,
+    ...stack,
+    amendLayer(mark, key, found) {
+      const amended = layers.amendLayer(mark, key, found);
+      if (amended) restack(key);
+      return amended;
+    },
+    rewriteLayer(key, layer) {
+      layers.rewriteLayer(key, layer);
+      restack(key);
+    },
+    setEnabled(key, enabled) {
+      layers.setEnabled(key, enabled);
+      if (enabled) restack(key);
+    },
+    moveLayer(key, by) {
+      layers.moveLayer(key, by);
+      const at = document.peek().layers.findIndex((entry) => entry.key === key);
+      restack(document.peek().layers[Math.min(at, at - by)]?.key ?? key);
+    },
     document,
     undoLabel: computed(() => history.undoLabel),
     redoLabel: computed(() => history.redoLabel),
@@ -92,6 +119,7 @@ export const {
   moveLayer,
   newEntry,
   notice,
+  onto,
   pointedAt,
   propagate,
   redo,
@@ -120,7 +148,9 @@ export const {
   slide,
   sliderValue,
   step,
+  stops,
   task,
   undo,
   undoLabel,
+  useCore,
 } = session;

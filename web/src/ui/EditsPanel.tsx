@@ -15,6 +15,7 @@ import { OffersPanel } from './OffersPanel';
 import { useRecorded } from './recorded';
 import { SuggestPanel } from './SuggestPanel';
 import { Together } from './Together';
+import { StackVerdict } from './StackVerdict';
 import type { FeatureKind } from './words';
 
 interface EditsProps {
@@ -50,6 +51,7 @@ export function EditsPanel({ pickKind }: EditsProps) {
       <ul class="cards" ref={cards}>
         <CardList layers={layers} />
       </ul>
+      <StackVerdict />
       {layers.length > 0 && <Together />}
       <SuggestPanel />
       {pickKind.value === null ? (

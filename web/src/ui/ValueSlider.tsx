@@ -11,7 +11,8 @@ import { formatMeasure, larger, type Measure, measureOf, parseMeasure } from '..
 import type { ModelCore } from '../session/model_core';
 import { interrupt } from '../session/play';
 import { readLayer, solveLayer } from '../session/reading';
-import { compiled, document, settle, setValue, slide, sliderValue, step } from '../session/session';
+import { compiled, document, settle, setValue, slide, sliderValue, step, stops } from '../session/session';
+import { Closed, stopWords } from './StackVerdict';
 import { cleanShares, Ends } from './TrackEnds';
 import { reasonOfEnd } from './slider_end';
 import { inWords } from './why';
@@ -26,6 +27,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
   const { text, measure, rest, now } = reading.value;
   const value = sliderValue(entry);
   const end = reasonOfEnd(entry, value);
+  const stopped = entry.enabled ? stopWords(entry) : null;
 
   const onKeyDown = (event: KeyboardEvent) => {
     const sign = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
@@ -45,6 +47,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
           '--span': Math.abs(share(value) - share(0)),
         }}
       >
+        <Closed entry={entry} share={share} />
         <span class="zero" />
         <input
           type="range"
@@ -85,6 +88,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
         </p>
       )}
       {end !== null && <p class="quiet">Ends here: further on, {inWords(document.value, end)}.</p>}
+      {stopped !== null && <p class="quiet stopped">{stopped}</p>}
     </div>
   );
 }

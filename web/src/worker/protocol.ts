@@ -217,6 +217,29 @@ export const methodSchemas = {
       reasons: v.array(v.strictObject({ reason: v.string(), count: v.number() })),
     }),
   },
+  /** A program with its layers from number `first` on composed anew onto those before them: core/propagate/compose.h. */
+  compose: {
+    parameters: v.strictObject({ program: v.unknown(), first: v.number() }),
+    result: v.strictObject({ program: v.unknown() }),
+  },
+  /**
+   * What the layers of a program keep together of what each keeps alone, sampled over all ranges, and how far each slider
+   * may go where the others stand: core/prove/stack.h.
+   */
+  judge: {
+    parameters: v.strictObject({ program: v.unknown() }),
+    result: v.strictObject({
+      of: v.number(),
+      /** Ids of relations. */
+      lost: v.array(v.string()),
+      settings: v.number(),
+      failed: v.number(),
+      failure: v.string(),
+      stops: v.array(
+        v.strictObject({ min: v.number(), max: v.number(), minReason: v.string(), maxReason: v.string() }),
+      ),
+    }),
+  },
   /** Every model of the gallery: entries of gallery.json, and one GLB each as buffers. */
   gallery: {
     parameters: v.strictObject({}),
