@@ -6,6 +6,7 @@ import { nameOf, partKey } from '../session/document';
 import { relabel } from '../session/open';
 import { document, hovered, pointedAt, renamePart, select, selection, setHidden, showAll } from '../session/session';
 import { Icon } from './Icon';
+import { SplitCard } from './SplitCard';
 import { whyPart } from './why';
 import { relationWords } from './words';
 
@@ -33,6 +34,7 @@ export function PartsPanel() {
           {hidden.size === 1 ? 'Show the hidden one' : `Show all ${hidden.size} hidden`}
         </button>
       )}
+      <SplitCard />
       <SelectedPart />
     </>
   );
