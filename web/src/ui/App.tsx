@@ -26,6 +26,7 @@ import { PartsPanel } from './PartsPanel';
 import { ProgramDialog } from './ProgramDialog';
 import { ReadingsDialog } from './ReadingsDialog';
 import { ShareDialog } from './ShareDialog';
+import { SplitOffer } from './SplitCard';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
 import { listenForShortcuts } from './shortcuts';
@@ -104,6 +105,7 @@ export function App() {
           style={{ paddingLeft: `${insets.left + 12}px`, paddingRight: `${insets.right + 12}px` }}
         >
           <TourOffer />
+          <SplitOffer />
           <StatusLine />
           <div class="row">
             <Dimensions />

@@ -8,6 +8,7 @@ import { document, pointedAt, select, selected, selection, showAll } from '../se
 import { Found } from './Found';
 import { PartsList } from './PartsList';
 import { SelectionBar } from './SelectionBar';
+import { SplitCard } from './SplitCard';
 import { whyPart } from './why';
 import { relationWords } from './words';
 
@@ -24,6 +25,7 @@ export function PartsPanel({ onEdit }: { onEdit: () => void }) {
           {hidden.size === 1 ? 'Show the hidden one' : `Show all ${hidden.size} hidden`}
         </button>
       )}
+      <SplitCard />
       <SelectionBar shape={model.shape} onEdit={onEdit} />
       {selected.value.length < 2 && <SelectedPart />}
     </>
