@@ -2,9 +2,9 @@
 import { describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
 import type { ModelFiles } from '../../web/src/scene/load';
-import { readSaved, save } from '../../web/src/share/saved';
 import { emptyDocument, noLabels } from '../../web/src/session/document';
 import { splitAs } from '../../web/src/session/split_files';
+import { readSaved, save } from '../../web/src/share/saved';
 import { tableInOnePiece } from '../e2e/one_mesh';
 import { twoBoxes } from './box_shapes';
 import { fakeCore } from './fake_core';

@@ -13,9 +13,9 @@ import { HandPanel } from './HandPanel';
 import { Icon } from './Icon';
 import { OffersPanel } from './OffersPanel';
 import { useRecorded } from './recorded';
+import { StackVerdict } from './StackVerdict';
 import { SuggestPanel } from './SuggestPanel';
 import { Together } from './Together';
-import { StackVerdict } from './StackVerdict';
 import type { FeatureKind } from './words';
 
 interface EditsProps {

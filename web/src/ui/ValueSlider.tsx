@@ -11,10 +11,10 @@ import { formatMeasure, larger, type Measure, measureOf, parseMeasure } from '..
 import type { ModelCore } from '../session/model_core';
 import { interrupt } from '../session/play';
 import { readLayer, solveLayer } from '../session/reading';
-import { compiled, document, settle, setValue, slide, sliderValue, step, stops } from '../session/session';
+import { compiled, document, settle, setValue, slide, sliderValue, step } from '../session/session';
 import { Closed, stopWords } from './StackVerdict';
-import { cleanShares, Ends } from './TrackEnds';
 import { reasonOfEnd } from './slider_end';
+import { cleanShares, Ends } from './TrackEnds';
 import { inWords } from './why';
 
 const steps = 200;
