@@ -192,8 +192,8 @@ TEST_CASE("a part that turns inside out between two steps ends the range") {
       CAPTURE(place);
       const std::string square = text(width * width);
       const std::string amount = "-1.5*" + square + "/((x1-" + text(place) + ")^2+" + square + ")";
-      const Range range =
-          find_range(shape, hand::program(shape, {statement(Op::scale_1d, "seat", Vec3::UnitX(), amount)}), 0, -reach, reach);
+      const Range range = find_range(
+          shape, hand::program(shape, {statement(Op::scale_1d, "seat", Vec3::UnitX(), amount)}), 0, -reach, reach);
       const double end = place > 0 ? range.max : range.min;
       CHECK(std::abs(end) <= std::abs(place));
       CHECK(std::abs(end) >= std::abs(place) - width - 1e-3);
