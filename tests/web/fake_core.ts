@@ -110,6 +110,9 @@ export function fakeCore(): FakeCore {
       numbered: ['left', 'right'],
     }),
     siblings: async () => ({ siblings: [], rejected: 0, reasons: [] }),
+    readCad: () => Promise.reject(new Error('not here')),
+    findFamily: () => Promise.reject(new Error('not here')),
+    familyText: () => Promise.reject(new Error('not here')),
     readPlainly: async () => core.plain,
     readReplies: async () => core.inference,
   };

@@ -1,6 +1,7 @@
 // What a person works on, as one immutable value: the model, the layers with their values, what is hidden and renamed.
 import type { Layer, LocalTriple, Program, Shape, Statement } from '../program/types';
 import type { ModelFiles } from '../scene/load';
+import type { FamilyState } from './family_state';
 import type { Trace } from './trace';
 
 /** Where a model came from: what a link can name. */
@@ -52,6 +53,8 @@ export interface Document {
   readonly hidden: ReadonlySet<string>;
   /** Names that were given to parts here, by id. */
   readonly names: ReadonlyMap<string, string>;
+  /** Of a CAD program: its family, whose sliders are layers like any others. */
+  readonly family?: FamilyState;
 }
 
 export const emptyDocument: Document = { model: null, layers: [], hidden: new Set(), names: new Map() };

@@ -11,11 +11,18 @@ export interface Selection {
   readonly feature: LocalTriple;
 }
 
+/** Parts, relations, and faces of parts. */
+export interface PointedAt {
+  readonly parts: readonly string[];
+  readonly relations: readonly string[];
+  readonly faces?: readonly Selection[];
+}
+
 export interface Parts {
   readonly selection: Signal<Selection | null>;
   readonly hovered: Signal<string | null>;
-  /** Parts and relations to light up while the pointer or the focus is on a statement or a relation. */
-  readonly pointedAt: Signal<{ parts: readonly string[]; relations: readonly string[] } | null>;
+  /** What lights up while the pointer or the focus is on a line that is about it. */
+  readonly pointedAt: Signal<PointedAt | null>;
   select(part: string | null, feature?: LocalTriple): void;
   setHidden(ids: readonly string[], hidden: boolean): void;
   showAll(): void;

@@ -9,6 +9,7 @@ export function carryOver(document: Document, model: OpenModel): Document {
   if (before === undefined) return { ...document, model };
   const part = renaming(before, model.shape, partKeys);
   return {
+    ...document,
     model,
     layers: document.layers.map((entry) => carryEntry(entry, before, model.shape)),
     hidden: new Set([...document.hidden].map(part)),

@@ -3,6 +3,7 @@
 import { batch, computed, type ReadonlySignal } from '@preact/signals';
 import { type Document, type EditInput, emptyDocument, withRequest } from './document';
 import { createEvaluation, type Evaluation } from './evaluation';
+import { createFamily, type FamilyActions } from './family';
 import { History, type Mark } from './history';
 import { createLayers, type Layers } from './layers';
 import type { ModelCore, Propagation } from './model_core';
@@ -10,6 +11,7 @@ import { createParts, type Parts } from './parts';
 import { createTasks, type Tasks } from './tasks';
 
 export interface Session extends Evaluation, Layers, Parts, Tasks {
+  readonly family: FamilyActions;
   readonly document: ReadonlySignal<Document>;
   readonly undoLabel: ReadonlySignal<string | null>;
   readonly redoLabel: ReadonlySignal<string | null>;
@@ -32,6 +34,7 @@ export function createSession(): Session {
   const evaluation = createEvaluation(document);
   const layers = createLayers(history, evaluation, tasks.say);
   const parts = createParts(history);
+  const family = createFamily(history, evaluation, layers, tasks);
 
   async function find(core: ModelCore, edit: EditInput, request: string): Promise<Propagation | null> {
     const { model } = document.peek();
@@ -48,6 +51,7 @@ export function createSession(): Session {
     ...evaluation,
     ...layers,
     ...parts,
+    family,
     document,
     undoLabel: computed(() => history.undoLabel),
     redoLabel: computed(() => history.redoLabel),
@@ -81,6 +85,7 @@ export const {
   draft,
   entriesOf,
   entryOf,
+  family,
   hovered,
   keepDraft,
   moveLayer,

@@ -5,6 +5,7 @@ import { jsonLimits, parseJson } from '../program/json';
 import { layerSchema, limits, programSchema } from '../program/schema';
 import type { CameraPose } from '../scene/camera';
 import type { Document } from '../session/document';
+import { savedFamily } from '../session/family_state';
 
 const id = v.pipe(v.string(), v.minLength(1), v.maxBytes(limits.nameLength));
 const finite = v.pipe(v.number(), v.finite(), v.minValue(-1e6), v.maxValue(1e6));
@@ -24,6 +25,10 @@ const label: v.GenericSchema<unknown, [string, string]> = v.strictTuple([
   v.pipe(v.string(), v.regex(/^node:\d{1,9}\/\d{1,9}$/)),
   id,
 ]);
+const choice: v.GenericSchema<unknown, [string, 'forced' | 'off']> = v.strictTuple([
+  v.pipe(v.string(), v.maxBytes(2 * limits.nameLength)),
+  v.picklist(['forced', 'off']),
+]);
 const viewSchema: v.GenericSchema<unknown, CameraPose> = v.strictTuple([
   finite,
   finite,
@@ -32,6 +37,13 @@ const viewSchema: v.GenericSchema<unknown, CameraPose> = v.strictTuple([
   finite,
   finite,
 ]);
+
+/** Of a CAD program: how many of the first layers are its sliders, and what makes its family another than it came with. */
+const familySchema = v.strictObject({
+  sliders: v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(limits.layers)),
+  choices: v.pipe(v.array(choice), v.maxLength(limits.statements)),
+  variations: v.exactOptional(v.looseObject({ format: v.literal('parsel/variations') })),
+});
 
 const savedSchema = v.strictObject({
   format: v.literal('parsel/session'),
@@ -45,6 +57,7 @@ const savedSchema = v.strictObject({
   names: v.pipe(v.array(renamed), v.maxLength(limits.statements)),
   /** Labels given in place of the file's own, by "node:<index>/<primitive>". */
   labels: v.exactOptional(v.pipe(v.array(label), v.maxLength(limits.statements))),
+  family: v.exactOptional(familySchema),
   view: v.exactOptional(viewSchema),
 });
 export type Saved = v.InferOutput<typeof savedSchema>;
@@ -62,6 +75,7 @@ export function save(document: Document, view?: CameraPose): Saved {
   const { model, layers, hidden, names } = document;
   if (model === null) throw new Error('there is no model to save the work on');
   const { shape, source, labels } = model;
+  const family = savedFamily(document);
   return {
     format: 'parsel/session',
     version: 1,
@@ -81,6 +95,7 @@ export function save(document: Document, view?: CameraPose): Saved {
     hidden: [...hidden],
     names: [...names],
     ...(labels.size > 0 ? { labels: [...labels] } : {}),
+    ...(family === undefined ? {} : { family: family as unknown as v.InferOutput<typeof familySchema> }),
     ...(view === undefined ? {} : { view }),
   };
 }
@@ -134,6 +149,8 @@ function salvage(json: Json): Work | null {
   const labels = json['labels'] === undefined ? [] : some(listOf(json['labels'], 'labels'), label, 'labels');
   const view = v.safeParse(viewSchema, json['view']);
   if (!view.success && json['view'] !== undefined) lost.push('the view');
+  const family = v.safeParse(familySchema, json['family']);
+  if (!family.success && json['family'] !== undefined) lost.push('the family');
   const { name, sha256 } = model.output;
   const saved: Saved = {
     format: 'parsel/session',
@@ -149,6 +166,7 @@ function salvage(json: Json): Work | null {
     hidden: some(listOf(json['hidden'], 'what is hidden'), id, 'what is hidden'),
     names: some(listOf(json['names'], 'names'), renamed, 'names'),
     ...(labels.length > 0 ? { labels } : {}),
+    ...(family.success ? { family: family.output } : {}),
     ...(view.success ? { view: view.output } : {}),
   };
   return { saved, lost: [...new Set(lost)] };

@@ -9,7 +9,6 @@ import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
 import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
-import { EditsPanel } from './EditsPanel';
 import { isEmbedded } from './frame';
 import { Handles } from './Handles';
 import { HelpDialog, Licences } from './HelpDialog';
@@ -19,6 +18,7 @@ import { ModelDialog } from './ModelDialog';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { ProgramDialog } from './ProgramDialog';
+import { RightPanel } from './RightPanel';
 import { ShareDialog } from './ShareDialog';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
@@ -54,7 +54,7 @@ export function App() {
   const insets: Insets = isPhone.value
     ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 98 : 158 }
     : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 150 };
-  const edits = <EditsPanel pickKind={pickKind} />;
+  const edits = <RightPanel pickKind={pickKind} />;
   return (
     <div class={`app ${isPhone.value ? 'phone' : ''}`}>
       <StageView insets={insets} pickKind={pickKind} />
