@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/core/tests_folder.h"
+
 namespace parsel {
 
 /// Parsed once; the reference stays valid.
@@ -14,13 +16,13 @@ inline const nlohmann::json& golden(const std::string& name) {
   static std::map<std::string, nlohmann::json> files;
   const auto found = files.find(name);
   if (found != files.end()) return found->second;
-  std::ifstream file(std::string(PARSEL_TESTS_DIR "/golden/") + name);
+  std::ifstream file(test::tests_folder() + "/golden/" + name);
   return files.emplace(name, nlohmann::json::parse(file)).first->second;
 }
 
 /// A file as it is.
 inline std::string golden_text(const std::string& name) {
-  std::ifstream file(std::string(PARSEL_TESTS_DIR "/golden/") + name, std::ios::binary);
+  std::ifstream file(test::tests_folder() + "/golden/" + name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -16,11 +16,12 @@
 #include "core/infer/seed_edit.h"
 #include "core/propagate/propagate.h"
 #include "core/shape/abstraction.h"
+#include "tests/core/tests_folder.h"
 
 namespace parsel::test {
 
 inline nlohmann::json json_file(const std::string& below_tests) {
-  std::ifstream file(std::string(PARSEL_TESTS_DIR "/") + below_tests);
+  std::ifstream file(tests_folder() + "/" + below_tests);
   return nlohmann::json::parse(file);
 }
 
@@ -175,7 +176,7 @@ inline std::optional<EditRequest> voted_edit(const Shape& shape, const EditWish&
   const Result<std::vector<Prompt>> prompts = make_prompts(shape, wish);
   PARSEL_ASSERT(prompts.ok(), "recorded requests can be asked");
   for (const Prompt& prompt : *prompts) {
-    std::ifstream file(PARSEL_TESTS_DIR "/../prompts/recordings/" + prompt.hash + ".json");
+    std::ifstream file(tests_folder() + "/../prompts/recordings/" + prompt.hash + ".json");
     if (!file) return std::nullopt;
     replies.push_back({prompt.task, prompt.relation, {}});
     const nlohmann::json recording = nlohmann::json::parse(file);

@@ -10,6 +10,7 @@
 #include "core/shape/gltf_import.h"
 #include "tests/core/glb_fixture.h"
 #include "tests/core/real_models.h"
+#include "tests/core/tests_folder.h"
 
 using namespace parsel;
 using nlohmann::json;
@@ -293,7 +294,7 @@ TEST_CASE("ten thousand nodes, side by side or in one chain, are read; too many 
 
 TEST_CASE("the fuzzer's corpus is read or refused") {
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(PARSEL_TESTS_DIR "/fuzz/corpus/gltf_import")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::tests_folder() + "/fuzz/corpus/gltf_import")) {
     const Result<Abstraction> abstraction = abstract_shape(test::read_bytes(entry.path()), "corpus");
     if (abstraction.ok()) CHECK_MESSAGE(validate(abstraction->shape).ok(), entry.path().string());
     ++files;

@@ -5,12 +5,13 @@
 #include <set>
 
 #include "tests/core/real_models.h"
+#include "tests/core/tests_folder.h"
 #include "tests/fuzz/pipeline.h"
 
 using namespace parsel;
 
 TEST_CASE("what the fuzzers found stays mended") {
-  const std::filesystem::path folder = PARSEL_TESTS_DIR "/fuzz/regressions";
+  const std::filesystem::path folder = test::tests_folder() + "/fuzz/regressions";
   std::set<std::filesystem::path> models;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() == ".glb") models.insert(entry.path());
