@@ -12,8 +12,8 @@
 
 namespace parsel::wasm {
 
-using nlohmann::json;
 using family::Family;
+using nlohmann::json;
 
 namespace {
 
@@ -52,7 +52,8 @@ json bounds_json(const Family& family) {
   json list = json::array();
   for (const family::Bound& bound : family.bounds) {
     json pairs = json::array();
-    for (const auto& [a, b] : bound.parts) pairs.push_back(json::array({family.model.parts[a].id, family.model.parts[b].id}));
+    for (const auto& [a, b] : bound.parts)
+      pairs.push_back(json::array({family.model.parts[a].id, family.model.parts[b].id}));
     list.push_back({{"form", std::vector<double>(bound.form.data(), bound.form.data() + bound.form.size())},
                     {"constant", bound.constant},
                     {"text", stop_text(family, bound.stop)},

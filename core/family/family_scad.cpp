@@ -108,7 +108,8 @@ std::string family_scad(const Family& family, const Shown& shown) {
         title.begin(), title.end(), [](char c) { return c == ']' || c == '*' || c == '/'; }, ' ');
     out += "/* [" + title + "] */\n";
     for (std::size_t k = 0; k < family.sliders.size(); ++k) {
-      if (family.sliders[k].section == section) out += declaration(family, k, shown.setting[static_cast<Eigen::Index>(k)]);
+      if (family.sliders[k].section == section)
+        out += declaration(family, k, shown.setting[static_cast<Eigen::Index>(k)]);
     }
     out += "\n";
   }
