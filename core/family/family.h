@@ -73,8 +73,8 @@ Result<Family> make_family(const cad::Model& model, std::vector<Variation> varia
 /// [{"parts","absent_from"}],"variations":[{"name","setting","absent"}],"warnings"}
 nlohmann::json to_json(const Family& family);
 
-/// Where a slider may go from the base: the hull and a quarter of it beyond on either side, or, where no variation changes
-/// it, a quarter of its value, as far as nothing stops it while the others stay. low ≤ the base's value ≤ high.
+/// Where a slider may go: the hull, and beyond it on either side a quarter of it (where no variation changes it: of its
+/// value), as far as nothing stops it while the others are as in the base. Within the hull the others may stop it.
 Interval reach(const Family& family, std::size_t slider);
 
 /// What stops a slider, in words: "the seat meets the back", "the leg's height ends".

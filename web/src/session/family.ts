@@ -83,6 +83,8 @@ export interface FamilyActions {
   readonly mixing: Signal<readonly number[] | null>;
   /** Where the sliders stand, ahead of the document while they are dragged. */
   settingNow(family: FamilyState): Setting;
+  /** Whether the sliders stand at a setting, as far as they go: a variation may lack what one of them moves. */
+  isAt(family: FamilyState, setting: Setting): boolean;
   /** Mixes a variation in by another weight, by as much as the sliders then move. Kept when `settle` says so. */
   mix(variation: number, weight: number, settle: boolean): void;
   /** Puts everything where a variation, or (null) the program itself, has it. */
@@ -111,6 +113,13 @@ export function createFamily(
       return lengthAt(family, k, entry === undefined ? 0 : value(entry));
     });
   const settingNow = (family: FamilyState) => read(family, sliderValue);
+
+  const isAt = (family: FamilyState, setting: Setting) =>
+    family.keys.every((key, k) => {
+      const entry = entryOf(key);
+      if (entry === undefined) return false;
+      return Math.abs(sliderValue(entry) - clamp(entry, valueAt(family, k, setting[k] ?? 0))) < 1e-6;
+    });
 
   /** Layers with the family's sliders at a setting. */
   function layersAt(family: FamilyState, setting: Setting): readonly LayerEntry[] {
@@ -239,5 +248,5 @@ export function createFamily(
     await find(core, variations, family.choices, `remove “${list[variation]?.name ?? ''}”`);
   }
 
-  return { mixing, settingNow, mix, showVariation, choose, keepVariation, removeVariation };
+  return { mixing, settingNow, isAt, mix, showVariation, choose, keepVariation, removeVariation };
 }

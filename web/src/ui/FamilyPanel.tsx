@@ -74,9 +74,6 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
   const { pictures } = family;
   const { main } = model.files;
   useEffect(() => drawFamily([main, ...pictures]), [main, pictures]);
-  const now = actions.settingNow(family);
-  const near = (setting: readonly number[]) =>
-    setting.every((length, k) => Math.abs(length - (now[k] ?? 0)) < 1e-6 * family.found.scale);
   const entries = [
     { name: 'as drawn', setting: family.found.family.sliders.map(({ value }) => value) },
     ...variations.map(({ name }, i) => ({ name, setting: settingOf(family, i) })),
@@ -88,7 +85,7 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
           <li key={name}>
             <button
               type="button"
-              aria-pressed={near(setting)}
+              aria-pressed={actions.isAt(family, setting)}
               onClick={() => {
                 interrupt();
                 actions.showVariation(i === 0 ? null : i - 1);
