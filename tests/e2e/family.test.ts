@@ -72,12 +72,12 @@ describe('a CAD program', () => {
     await page.getByText('In common', { exact: false }).first().click();
     const lines = page.locator('.shared').first().getByRole('checkbox');
     expect(await lines.count()).toBeGreaterThan(5);
-    await page.getByText('All but one', { exact: false }).first().click();
-    const near = page.locator('.shared').nth(1).getByRole('checkbox').first();
+    await page.getByText('By accident', { exact: false }).first().click();
+    const accident = page.locator('.shared').nth(1).getByRole('checkbox').first();
     const plain = await stillPicture(page);
-    await near.hover();
+    await accident.hover();
     expect((await stillPicture(page)).equals(plain)).toBe(false);
-    await near.check();
+    await accident.check();
     await expect.poll(() => page.getByRole('status').first().textContent()).toMatch(/^\d+ sliders/);
     const after = await sliders.count();
     expect(after).toBeLessThanOrEqual(before);
