@@ -25,6 +25,8 @@ function similarity(a, b) {
   return both / (a.size + b.size - both || 1);
 }
 
+const brokenIn = (relations) => relations.filter(({ status }) => status === 'broken').map(({ id }) => id);
+
 /** A program of the layers of several, under parameters of their own. */
 function stacked(programs) {
   const layers = programs.flatMap(({ layers: own }, i) =>
@@ -59,7 +61,12 @@ for (const proposal of readProposals()) {
       one.program = core('propagate', { edit }).result.program;
       const [{ parameter, relations }] = one.program.layers;
       one.moves = parameter.min < parameter.max;
-      one.broken = relations.filter(({ status }) => status === 'broken').map(({ id }) => id);
+      one.broken = brokenIn(relations);
+      if (one.broken.length > 0) {
+        const hints = Object.fromEntries(Object.entries(edit.hints).filter(([, hint]) => hint !== 'keep_fixed'));
+        const [looser] = core('propagate', { edit: { ...edit, hints } }).result.program.layers;
+        one.looser = brokenIn(looser.relations).length === 0;
+      }
     } catch (error) {
       one.why = error.message;
     }
@@ -91,6 +98,9 @@ if (values.json) {
     say(`${task}: ${own.length} replies, ${all.length} proposals`);
     say(`  read ${count(({ read }) => read)}, with a slider that moves ${count(({ moves }) => moves)}`);
     say(`  … and no broken relation ${count(({ moves, broken }) => moves && broken.length === 0)}`);
+    say(
+      `  … or when parts that were to stay follow ${count(({ moves, broken, looser }) => moves && (looser || broken.length === 0))}`,
+    );
     for (const { model, request, proposed, similarity: mean, alike, joint } of own) {
       say(
         `  ${model}${request ? `, ${request}` : ''}: J(prog) between them ${mean?.toFixed(2)}, ${alike} pairs the same`,

@@ -106,8 +106,12 @@ function pour(response: ServerResponse): void {
 }
 
 interface Message {
-  content: string;
+  content: string | { type: string; text?: string }[];
 }
+
+/** The text of a message, which a picture may stand beside. */
+const textIn = (content: Message['content'] | undefined) =>
+  typeof content === 'string' ? content : (content?.find(({ type }) => type === 'text')?.text ?? '');
 
 function promptOf(protocol: Protocol, path: string, body: Record<string, unknown>): { model: string; prompt: string } {
   if (protocol === 'gemini') {
@@ -117,7 +121,7 @@ function promptOf(protocol: Protocol, path: string, body: Record<string, unknown
   }
   const expected = protocol === 'openai' ? '/chat/completions' : '/messages';
   if (!path.endsWith(expected)) throw new Error(`${protocol} was asked at ${path}`);
-  return { model: String(body.model), prompt: (body.messages as Message[])[0]?.content ?? '' };
+  return { model: String(body.model), prompt: textIn((body.messages as Message[])[0]?.content) };
 }
 
 function isStructured(protocol: Protocol, body: Record<string, unknown>): boolean {

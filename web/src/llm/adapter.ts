@@ -18,6 +18,8 @@ export interface Call {
   readonly prompt: string;
   /** JSON schema to hold the reply to, or null. */
   readonly schema: object | null;
+  /** What goes along: a PNG in base64. */
+  readonly picture?: string;
 }
 
 export interface Tokens {

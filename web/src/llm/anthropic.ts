@@ -17,14 +17,22 @@ const headersOf = (key: string): Record<string, string> => ({
   'anthropic-dangerous-direct-browser-access': 'true',
 });
 
+const contentOf = (text: string, picture: string | undefined) =>
+  picture === undefined
+    ? text
+    : [
+        { type: 'image', source: { type: 'base64', media_type: 'image/png', data: picture } },
+        { type: 'text', text },
+      ];
+
 export const anthropic: Adapter = {
-  request: ({ base, model, key }, { prompt, schema }) => ({
+  request: ({ base, model, key }, { prompt, schema, picture }) => ({
     url: `${base}/messages`,
     headers: { 'Content-Type': 'application/json', ...headersOf(key) },
     body: {
       model,
       max_tokens: outputBudget,
-      messages: [{ role: 'user', content: schema === null ? prompt : structuredPrompt(prompt) }],
+      messages: [{ role: 'user', content: contentOf(schema === null ? prompt : structuredPrompt(prompt), picture) }],
       ...(schema === null
         ? {}
         : { output_config: { format: { type: 'json_schema', schema: structuredSchema(schema) } } }),

@@ -27,11 +27,19 @@ const replySchema = v.object({
 });
 
 export const gemini: Adapter = {
-  request: ({ base, model, key }, { prompt, schema }) => ({
+  request: ({ base, model, key }, { prompt, schema, picture }) => ({
     url: `${base}/models/${encodeURIComponent(model.replace(/^models\//, ''))}:generateContent`,
     headers: { 'Content-Type': 'application/json', 'x-goog-api-key': key },
     body: {
-      contents: [{ role: 'user', parts: [{ text: schema === null ? prompt : structuredPrompt(prompt) }] }],
+      contents: [
+        {
+          role: 'user',
+          parts: [
+            { text: schema === null ? prompt : structuredPrompt(prompt) },
+            ...(picture === undefined ? [] : [{ inlineData: { mimeType: 'image/png', data: picture } }]),
+          ],
+        },
+      ],
       generationConfig: {
         maxOutputTokens: outputBudget,
         ...(schema === null

@@ -31,7 +31,8 @@ const unstructured = new Set<string>();
 /** @throws AskError; or the signal's reason */
 export async function complete(target: Target, call: Call, options: SendOptions): Promise<Reply> {
   const adapter = adapters[target.provider.protocol];
-  const name = `${target.base} ${target.model} ${JSON.stringify(call.schema)}`;
+  // A picture is refused in the same way as a schema.
+  const name = `${target.base} ${target.model} ${call.picture !== undefined} ${JSON.stringify(call.schema)}`;
   const sleep = options.sleep ?? pause;
   for (let attempt = 1; ; attempt++) {
     const schema = unstructured.has(name) ? null : call.schema;

@@ -20,8 +20,17 @@ const replySchema = v.object({
 
 const headersOf = (key: string): Record<string, string> => (key === '' ? {} : { Authorization: `Bearer ${key}` });
 
+/** A message: a text alone, as every server knows it, or with a picture. */
+const contentOf = (text: string, picture: string | undefined) =>
+  picture === undefined
+    ? text
+    : [
+        { type: 'text', text },
+        { type: 'image_url', image_url: { url: `data:image/png;base64,${picture}` } },
+      ];
+
 export const openai: Adapter = {
-  request({ base, model, key, provider }, { prompt, schema }) {
+  request({ base, model, key, provider }, { prompt, schema, picture }) {
     const structure = schema === null ? 'none' : provider.structure;
     const format =
       structure === 'schema'
@@ -32,7 +41,9 @@ export const openai: Adapter = {
       headers: { 'Content-Type': 'application/json', ...headersOf(key) },
       body: {
         model,
-        messages: [{ role: 'user', content: structure === 'none' ? prompt : structuredPrompt(prompt) }],
+        messages: [
+          { role: 'user', content: contentOf(structure === 'none' ? prompt : structuredPrompt(prompt), picture) },
+        ],
         [provider.limit]: outputBudget,
         ...(structure === 'none' ? {} : { response_format: format }),
         // OpenRouter can answer equal requests from a cache, which would make all votes one: no two requests are equal.

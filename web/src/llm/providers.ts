@@ -13,13 +13,15 @@ export interface Provider {
   readonly keysAt: string | null;
   /** How the provider can be held to JSON: to a schema, to some JSON, or not at all. */
   readonly structure: 'schema' | 'json' | 'none';
+  /** Whether any of its models looks at pictures. */
+  readonly sees: boolean;
   /** Name of the output limit in the OpenAI protocol: its newer models refuse `max_tokens`, other hosts know nothing else. */
   readonly limit: 'max_completion_tokens' | 'max_tokens';
   /** What has to be set up first, in sentences. */
   readonly pitfalls: readonly string[];
 }
 
-const openai = { protocol: 'openai', structure: 'schema', limit: 'max_tokens', pitfalls: [] } as const;
+const openai = { protocol: 'openai', structure: 'schema', sees: true, limit: 'max_tokens', pitfalls: [] } as const;
 
 /** Of a page on https and of one on this machine, towards a server on this machine. */
 const localPitfalls = [
@@ -35,6 +37,7 @@ export const providers: readonly Provider[] = [
     base: 'https://api.anthropic.com/v1',
     keysAt: 'https://console.anthropic.com/settings/keys',
     structure: 'schema',
+    sees: true,
     limit: 'max_tokens',
     pitfalls: [],
   },
@@ -45,6 +48,7 @@ export const providers: readonly Provider[] = [
     base: 'https://generativelanguage.googleapis.com/v1beta',
     keysAt: 'https://aistudio.google.com/apikey',
     structure: 'schema',
+    sees: true,
     limit: 'max_tokens',
     pitfalls: [],
   },
@@ -85,6 +89,7 @@ export const providers: readonly Provider[] = [
     base: 'https://api.deepseek.com',
     keysAt: 'https://platform.deepseek.com/api_keys',
     structure: 'json',
+    sees: false,
   },
   {
     ...openai,

@@ -23,15 +23,17 @@ export interface LiveOptions extends Omit<SendOptions, 'signal'> {
   readonly cache: ReplyCache;
   /** Asks again what has been answered before. */
   readonly afresh?: boolean;
+  /** What goes along with every prompt: see Call. */
+  readonly picture?: string;
 }
 
-export function liveSource(target: Target, { votes, cache, afresh = false, ...options }: LiveOptions): Source {
+export function liveSource(target: Target, { votes, cache, afresh = false, picture, ...options }: LiveOptions): Source {
   const keyOf = ({ hash }: Prompt, vote: number) => [target.base, target.model, hash, vote].join(' ');
   return {
     votes: () => votes,
     kept: async (prompt, vote) => (afresh ? undefined : (await cache.get(keyOf(prompt, vote)))?.text),
     async reply(prompt, vote, schema, signal) {
-      const call: Call = { prompt: prompt.text, schema };
+      const call: Call = { prompt: prompt.text, schema, ...(picture === undefined ? {} : { picture }) };
       const reply = await complete(target, call, { ...options, signal });
       await cache.set(keyOf(prompt, vote), reply);
       return reply;

@@ -106,6 +106,10 @@ export class ModelView {
     for (const group of this.#groups) if (group.source >= 0 && group.members.includes(part)) this.#tintInstances(group);
   }
 
+  tintOf(part: number): Tint {
+    return this.#tints[part] ?? noTint;
+  }
+
   setHidden(part: number, hidden: boolean): void {
     this.#hidden[part] = hidden;
     const drawn = this.#parts[part];

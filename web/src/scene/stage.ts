@@ -6,9 +6,10 @@ import { CameraRig, type Insets } from './camera';
 import { distanceAlong } from './drag';
 import { explode, type State } from './explode';
 import type { LoadedModel } from './meshes';
-import { ModelView } from './model_view';
+import { ModelView, noTint } from './model_view';
 import { Overlays } from './overlays';
 import { type Hit, Picker } from './picking';
+import { boundsOfAll, type Picture, type Projection, pictureCamera, shoot } from './pictures';
 
 /** A model on the stage. */
 export interface Actor {
@@ -171,11 +172,8 @@ export class Stage {
 
   /** Where the mean of some points of the shape is on screen, CSS pixels in the window. */
   projectMean(points: ArrayLike<number>): { x: number; y: number } {
-    const mean = new three.Vector3();
-    const count = points.length / 3;
-    for (let i = 0; i < count; i++) mean.add(corner.fromArray(points, 3 * i));
     const { left, top, width, height } = this.canvas.getBoundingClientRect();
-    const { x, y } = mean.divideScalar(count).project(this.rig.camera);
+    const { x, y } = meanOf(points).project(this.rig.camera);
     return { x: left + ((x + 1) / 2) * width, y: top + ((1 - y) / 2) * height };
   }
 
@@ -230,6 +228,39 @@ export class Stage {
     );
   }
 
+  /**
+   * Draws other states of the model, all seen alike, and then the present one again. Null while there is nothing to draw.
+   * @param framing states that fit into the pictures together
+   */
+  paint(
+    pictures: readonly Picture[],
+    framing: readonly State[] = pictures.map(({ state }) => state),
+  ): Projection | null {
+    const [actor, state, apart, [first]] = [this.#actor, this.#state, this.#apart, pictures];
+    if (actor === null || state === null || first === undefined || this.#renderer.getContext().isContextLost())
+      return null;
+    const { view, overlays } = actor;
+    const { width, height } = first.canvas;
+    const camera = pictureCamera(boundsOfAll(view.shape, framing, shapeBounds), width / height);
+    const tints = view.shape.parts.map((_, part) => view.tintOf(part));
+    overlays.root.visible = false;
+    this.#apart = 0;
+    for (const picture of pictures) {
+      this.update(picture.state);
+      for (const part of tints.keys()) view.setTint(part, picture.tints?.get(part) ?? noTint);
+      shoot(this.#renderer, this.#scene, camera, picture.canvas);
+    }
+    for (const [part, tint] of tints.entries()) view.setTint(part, tint);
+    overlays.root.visible = true;
+    this.#apart = apart;
+    this.update(state);
+    this.#renderer.render(this.#scene, this.rig.camera);
+    return (points) => {
+      const { x, y } = meanOf(points).project(camera);
+      return { x: (x + 1) / 2, y: (1 - y) / 2 };
+    };
+  }
+
   /** For tests: what the graphics card makes of a part. See readback.ts. */
   async readVertices(part: number, what: 'positions' | 'normals'): Promise<Float32Array> {
     const { readVertices } = await import('./readback');
@@ -281,6 +312,13 @@ const sphere = new three.Sphere();
 const corner = new three.Vector3();
 const shapeBox = new three.Box3();
 const nothing = new Float64Array(0);
+
+function meanOf(points: ArrayLike<number>): three.Vector3 {
+  const mean = new three.Vector3();
+  const count = points.length / 3;
+  for (let i = 0; i < count; i++) mean.add(corner.fromArray(points, 3 * i));
+  return mean.divideScalar(count);
+}
 
 /** Of all real parts and all instances. The box is reused by the next call. */
 export function shapeBounds(shape: CageShape, { corners, groups }: State): three.Box3 {

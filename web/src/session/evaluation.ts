@@ -60,7 +60,12 @@ export function createEvaluation(document: ReadonlySignal<Document>): Evaluation
   let lastStructure: readonly unknown[] = [];
   let lastCompiled: Compiled = { kind: 'none' };
 
-  const shownLayers = () => [...activeLayers(document.value), ...(draft.value === null ? [] : [draft.value])];
+  const shownLayers = () => {
+    const { model } = document.value;
+    const shown = draft.value;
+    const fits = shown !== null && model !== null && misfit(model.shape, shown.layer) === null;
+    return [...activeLayers(document.value), ...(fits ? [shown] : [])];
+  };
 
   const compiled = computed<Compiled>(() => {
     const { model } = document.value;

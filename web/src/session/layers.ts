@@ -3,7 +3,7 @@ import { batch } from '@preact/signals';
 import { checkProgram } from '../program/check';
 import { titleOf } from '../program/title';
 import { errorMessage, type Layer, type Program } from '../program/types';
-import { type Document, type LayerEntry, programOf, withFreshParameters } from './document';
+import { type Document, type LayerEntry, programOf, withFreshParameters, withRequest } from './document';
 import { activeLayers, type Evaluation } from './evaluation';
 import type { History, Mark } from './history';
 import type { Propagation } from './model_core';
@@ -17,6 +17,8 @@ export interface Layers {
   settle(key: number): void;
   /** @param inRun of the steps of a run, such as the arrow keys make, all but the first are none of their own */
   setValue(key: number, value: number, inRun?: boolean): void;
+  /** Puts several sliders at once, by key, as one step of the history. */
+  setValues(values: ReadonlyMap<number, number>, label: string): void;
   /** Makes the draft a layer of the work, where its slider stands; answers its key. One step of the history. */
   keepDraft(): number | null;
   newEntry(layer: Layer, value?: number, enabled?: boolean): LayerEntry;
@@ -29,6 +31,11 @@ export interface Layers {
    * False when that step is undone, when the layer is gone, or when the other does not fit, which it says.
    */
   amendLayer(mark: Mark, key: number, found: Propagation): boolean;
+  /**
+   * Puts what was found in place of a layer, as a step; its slider stays where it is, if it goes so far. False when the layer
+   * is gone or the other does not fit, which it says.
+   */
+  exchangeLayer(key: number, found: Propagation, request: string): boolean;
   /** Puts a layer that was edited as text in place of what it was. What propagation found out about it goes. */
   rewriteLayer(key: number, layer: Layer): void;
   removeLayer(key: number): void;
@@ -93,11 +100,12 @@ export function createLayers(
     return entries.map(({ key }) => key);
   }
 
-  function amendLayer(mark: Mark, key: number, { program, trace }: Propagation): boolean {
+  /** How what was found takes the place of a layer among others; null when it cannot, which it says. */
+  function replacing(key: number, { program, trace }: Propagation): ((entries: Entries) => Entries) | null {
     const { layers } = document.peek();
     const others = layers.filter((entry) => entry.key !== key);
     const [layer] = named(program.layers, others);
-    if (layer === undefined || others.length === layers.length) return false;
+    if (layer === undefined || others.length === layers.length) return null;
     const amended = ({ value, enabled }: LayerEntry): LayerEntry => ({
       key,
       layer,
@@ -106,7 +114,12 @@ export function createLayers(
       ...(trace === undefined ? {} : { trace }),
     });
     const inPlace = (entries: Entries) => entries.map((entry) => (entry.key === key ? amended(entry) : entry));
-    if (!goTogether(inPlace(activeLayers(document.peek())))) return false;
+    return goTogether(inPlace(activeLayers(document.peek()))) ? inPlace : null;
+  }
+
+  function amendLayer(mark: Mark, key: number, found: Propagation): boolean {
+    const inPlace = replacing(key, found);
+    if (inPlace === null) return false;
     const { model } = document.peek();
     // What was found holds for this model and its labels; states of before another was given keep what they had.
     return history.amend(mark, (state) =>
@@ -128,6 +141,14 @@ export function createLayers(
       slide(key, value);
       settle(key, inRun);
     },
+    setValues(values, label) {
+      changeLayers(label, (layers) =>
+        layers.map((entry) => {
+          const value = values.get(entry.key);
+          return value === undefined ? entry : { ...entry, value: clamp(value, entry.layer.parameter) };
+        }),
+      );
+    },
     keepDraft() {
       const entry = draft.peek();
       if (entry === null) return null;
@@ -142,6 +163,11 @@ export function createLayers(
     entriesOf,
     addProgram,
     amendLayer,
+    exchangeLayer(key, found, request) {
+      const inPlace = replacing(key, { ...found, program: withRequest(found.program, request) });
+      if (inPlace !== null) changeLayers(`read it as “${request}”`, inPlace);
+      return inPlace !== null;
+    },
     rewriteLayer(key, layer) {
       changeLayers('edit as text', (layers) =>
         layers.map((entry) =>

@@ -5,10 +5,12 @@ import { useEffect } from 'preact/hooks';
 import type { Insets } from '../scene/camera';
 import { readDropped } from '../session/files';
 import { document } from '../session/session';
+import { suggestions } from '../session/suggestions';
 import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
 import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
+import { ExploreDialog } from './ExploreDialog';
 import { isEmbedded } from './frame';
 import { Handles } from './Handles';
 import { HelpDialog, Licences } from './HelpDialog';
@@ -18,6 +20,7 @@ import { ModelDialog } from './ModelDialog';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { ProgramDialog } from './ProgramDialog';
+import { ReadingsDialog } from './ReadingsDialog';
 import { RightPanel } from './RightPanel';
 import { ShareDialog } from './ShareDialog';
 import { StageView } from './StageView';
@@ -49,6 +52,13 @@ export function App() {
       phone.removeEventListener('change', onChange);
     };
   }, [dropping, isPhone]);
+
+  const suggested = suggestions.asked.value?.stop;
+  useEffect(() => {
+    if (suggested === undefined) return;
+    editsOpen.value = true;
+    tab.value = 'edits';
+  }, [suggested, editsOpen, tab]);
 
   if (isEmbedded) return <Embedded />;
   const insets: Insets = isPhone.value
@@ -102,6 +112,8 @@ export function App() {
       {dialog.value === 'help' && <HelpDialog />}
       {dialog.value === 'text' && <ProgramDialog />}
       {dialog.value === 'model' && <ModelDialog />}
+      {dialog.value === 'explore' && <ExploreDialog />}
+      {dialog.value === 'readings' && <ReadingsDialog />}
       {dropping.value && (
         <div class="drop" aria-hidden="true">
           <p>Drop a model to open it</p>

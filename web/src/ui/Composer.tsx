@@ -22,6 +22,7 @@ import { dialog } from './actions';
 import { Icon } from './Icon';
 import { ReadingCard } from './ReadingCard';
 import { useRecorded } from './recorded';
+import { suggestSliders } from './SuggestPanel';
 
 const maxLength = 1000;
 
@@ -95,6 +96,17 @@ export function Composer({ picking }: { picking: boolean }) {
             }}
           />
         </div>
+        <button
+          type="button"
+          class="button suggest-button"
+          aria-label="Suggest sliders"
+          title="Suggest sliders for this model"
+          disabled={models.value === null}
+          onClick={suggestSliders}
+        >
+          <Icon name="sparkle" />
+          <span>Suggest sliders</span>
+        </button>
         <button
           type="button"
           class="button icon-only"

@@ -12,6 +12,8 @@ import { HandPanel } from './HandPanel';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
 import { useRecorded } from './recorded';
+import { SuggestPanel } from './SuggestPanel';
+import { Together } from './Together';
 import type { FeatureKind } from './words';
 
 interface EditsProps {
@@ -48,6 +50,8 @@ export function EditsPanel({ pickKind }: EditsProps) {
           <LayerCard key={entry.key} entry={entry} first={i === 0} last={i === layers.length - 1} />
         ))}
       </ul>
+      {layers.length > 0 && <Together />}
+      <SuggestPanel />
       {pickKind.value === null ? (
         <>
           <Suggestions />

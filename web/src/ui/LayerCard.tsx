@@ -10,6 +10,7 @@ import { document, moveLayer, pointedAt, removeLayer, renameLayer, setEnabled } 
 import { showText } from './actions';
 import { Icon } from './Icon';
 import { Menu } from './Menu';
+import { showReadings } from './ReadingsDialog';
 import { ValueSlider } from './ValueSlider';
 import { brokenWords, inWords, whyNothingElse } from './why';
 import { capital, groupMembers, keptWords, relationWords, statementWords, whyWords } from './words';
@@ -52,6 +53,7 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
             class="button icon-only"
             items={[
               { label: 'Rename', act: () => (renaming.value = true) },
+              { label: 'Other readings', disabled: layer.request === '', act: () => showReadings(entry) },
               { label: 'Show as text', act: () => showText(key) },
               { label: enabled ? 'Switch off' : 'Switch on', act: () => setEnabled(key, !enabled) },
               { label: 'Move up', disabled: first, act: () => moveLayer(key, -1) },

@@ -74,7 +74,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
   );
 }
 
-const measureName = ({ part, what }: Measure) => {
+export const measureName = ({ part, what }: Measure) => {
   const verb = what === 'distance' ? 'moved' : what === 'angle' ? 'turned' : what;
   return part === null ? verb : `${nameOf(document.value, part)} ${verb}`;
 };

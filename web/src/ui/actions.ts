@@ -14,7 +14,7 @@ import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
 import { stage } from './view';
 
-export type DialogName = 'open' | 'share' | 'help' | 'text' | 'model';
+export type DialogName = 'explore' | 'readings' | 'open' | 'share' | 'help' | 'text' | 'model';
 export const dialog = signal<DialogName | null>(null);
 /** Key of the layer that the text dialog is about; null for text from elsewhere. */
 const textKey = signal<number | null>(null);

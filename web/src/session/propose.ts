@@ -1,0 +1,99 @@
+// Asking a language model for requests: the prompt of a task that proposes, with a picture of the model where the model that
+// is asked can see, and its replies. What each proposal means is read like any request.
+import { AskError } from '../llm/ask_error';
+import { ask } from '../llm/session';
+import type { Source } from '../llm/source';
+import type { Inference, Prompt } from '../worker/protocol';
+import type { EditInput, OpenModel } from './document';
+import type { ModelCore } from './model_core';
+
+/** Tasks that propose, as prompts/ names them; a request where they are about one. */
+export type About =
+  | { readonly task: 'procedural_requests' }
+  | { readonly task: 'request_variations'; readonly request: string };
+
+/** A picture of the model with numbers on its parts, as the base64 of a PNG; null where there is nothing to draw with. */
+export type PaintNumbered = (numbered: readonly string[]) => string | null;
+
+/** Whom to ask. */
+export interface Asker {
+  /** Reads requests. */
+  readonly reader: Source;
+  /**
+   * Answers the prompt of a task that proposes. Null: it has no answer, or whoever is asked cannot see.
+   * @param picture what goes along; null for a prompt that speaks of none
+   */
+  proposer(prompt: Prompt, picture: (() => string | null) | null): Source | null;
+  /** Whoever was asked refused a prompt with a picture. */
+  isBlind(): void;
+}
+
+export type Proposed = NonNullable<Inference['proposals']> & Spent;
+
+/** What asking took, as far as the provider counts it. */
+export interface Spent {
+  readonly calls: number;
+  readonly tokens: { readonly input: number; readonly output: number };
+}
+
+/** @throws AskError when there is no reply that can be read; or the signal's reason */
+export async function propose(
+  core: ModelCore,
+  model: OpenModel,
+  about: About,
+  asker: Asker,
+  paint: PaintNumbered,
+  signal: AbortSignal,
+): Promise<Proposed> {
+  const request = about.task === 'request_variations' ? about.request : '';
+  const once = async (picture: boolean): Promise<Proposed | null> => {
+    const asked = { task: about.task, request, mentioned: [], count: 0, picture };
+    const { prompt, words, schema, numbered } = await core.proposalPrompt(model, asked);
+    const source = asker.proposer(prompt, picture ? () => paint(numbered) : null);
+    if (source === null) return null;
+    const { inference, calls, tokens, failures } = await ask(
+      { prompts: [prompt], tasks: { [prompt.task]: { words, schema } } },
+      source,
+      (replies) => core.readReplies(model, request, replies),
+      { signal, onProgress: () => {} },
+    );
+    const { requests = [], dropped = [] } = inference.proposals ?? {};
+    if (requests.length > 0) return { requests, dropped, calls, tokens };
+    const [refused] = inference.refused;
+    const reason = failures[0] ?? (refused && unusable(refused.error.cause)) ?? unusable(dropped[0]?.reason);
+    throw reason;
+  };
+  let seen: Proposed | null = null;
+  try {
+    seen = await once(true);
+  } catch (error) {
+    if (!(error instanceof AskError && error.kind === 'request')) throw error;
+    asker.isBlind();
+  }
+  const proposed = seen ?? (await once(false));
+  if (proposed === null) throw unusable('nobody can be asked');
+  return proposed;
+}
+
+const unusable = (why = 'it proposes nothing') =>
+  new AskError('unreadable', '', `The answer could not be used: ${why}`, 'Ask again, or ask another language model');
+
+/** What a proposed request means. Which symmetries may go is not asked: it would be many times as many questions. */
+export async function readProposal(
+  core: ModelCore,
+  model: OpenModel,
+  request: string,
+  source: Source,
+  signal: AbortSignal,
+): Promise<{ readonly edit: EditInput | null; readonly why: string } & Spent> {
+  const { prompts, tasks } = await core.prompts(model, request, []);
+  const { inference, calls, tokens } = await ask(
+    { prompts: prompts.filter(({ relation }) => relation === null), tasks },
+    source,
+    (replies) => core.readReplies(model, request, replies),
+    { signal, onProgress: () => {} },
+  );
+  const edit = inference.edit === null ? null : { seed: [], disabled: [], hints: {}, ...inference.edit };
+  const why = inference.seed.reason ?? inference.refused[0]?.error.cause ?? 'no answer could be read';
+  return { edit, why, calls, tokens };
+}

@@ -1,0 +1,68 @@
+// Whom the page asks for proposals: a language model with the key of the settings, or the recordings of a gallery model.
+import { AskError } from '../llm/ask_error';
+import { browserCache } from '../llm/cache';
+import { loadRecordings } from '../llm/recordings';
+import { currentTarget, isDemo, settings } from '../llm/settings';
+import { liveSource, recordedSource } from '../llm/source';
+import { models } from './core';
+import type { OpenModel } from './document';
+import { createProposals } from './proposals';
+import type { Asker } from './propose';
+import { session } from './session';
+
+/** Of each question about a proposal: there are a dozen proposals' worth of questions at once. */
+const mostVotes = 3;
+
+/** Models that refused a picture, by base and name. */
+const blind = new Set<string>();
+
+/** @throws AskError that says why nobody can be asked */
+async function askerOf(model: OpenModel): Promise<Asker> {
+  if (isDemo.peek()) return recordedAsker(model);
+  const target = currentTarget();
+  const name = `${target.base} ${target.model}`;
+  const options = { cache: browserCache };
+  return {
+    reader: liveSource(target, { ...options, votes: Math.min(settings.peek().votes, mostVotes) }),
+    proposer(_, picture) {
+      if (picture === null) return liveSource(target, { ...options, votes: 1 });
+      const drawn = target.provider.sees && !blind.has(name) ? picture() : null;
+      return drawn === null ? null : liveSource(target, { ...options, votes: 1, picture: drawn });
+    },
+    isBlind: () => blind.add(name),
+  };
+}
+
+async function recordedAsker({ source, labels }: OpenModel): Promise<Asker> {
+  const recordings = source.kind === 'gallery' && labels.size === 0 ? await loadRecordings(source.id) : null;
+  if (recordings === null)
+    throw new AskError(
+      'no_recording',
+      '',
+      'Without a key there are recorded suggestions for gallery models only',
+      'Enter a key in the settings to ask about your own model',
+    );
+  const recorded = recordedSource(recordings);
+  return {
+    reader: recorded,
+    proposer(prompt, picture) {
+      if (Object.hasOwn(recordings.replies, prompt.hash)) return recorded;
+      if (picture !== null) return null;
+      throw new AskError(
+        'no_recording',
+        '',
+        prompt.task === 'request_variations'
+          ? 'Without a key there are recorded readings of a few requests only, and this one is none of them'
+          : 'There are no recorded suggestions for this model',
+        'Enter a key in the settings to ask a language model',
+      );
+    },
+    isBlind: () => {},
+  };
+}
+
+const parts = { session, models, askerOf };
+/** Sliders for the model. */
+export const suggestions = createProposals(parts);
+/** Other readings of one layer's request. */
+export const otherReadings = createProposals(parts);

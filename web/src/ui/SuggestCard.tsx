@@ -1,0 +1,208 @@
+// A suggested slider: what it does in three pictures, the slider itself, which moves the model without being part of the
+// work yet, and what is wrong with it where it is not clean.
+import { useSignal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
+import type { Layer } from '../program/types';
+import type { OpenModel } from '../session/document';
+import { formatMeasure, larger, measureOf, readAt } from '../session/measure';
+import { playOnce } from '../session/play';
+import type { Fault, Proposal } from '../session/proposals';
+import { document } from '../session/session';
+import { suggestions } from '../session/suggestions';
+import { Icon } from './Icon';
+import { Menu } from './Menu';
+import { evaluatorOf, strip, strips } from './pictures';
+import { measureName } from './ValueSlider';
+import { listWords, relationWords } from './words';
+
+interface CardProps {
+  readonly model: OpenModel;
+  readonly proposal: Proposal;
+  readonly first: boolean;
+  readonly last: boolean;
+  readonly isRunning: boolean;
+}
+
+export function SuggestCard({ model, proposal, first, last, isRunning }: CardProps) {
+  const { key, request, state } = proposal;
+  const renaming = useSignal(false);
+  const layer = state.kind === 'found' ? state.found.program.layers[0] : undefined;
+  const moves = state.kind === 'found' && state.fault?.kind !== 'still';
+  return (
+    <li class="card proposal" aria-label={request}>
+      <header>
+        {renaming.value ? <Rename proposal={proposal} done={() => (renaming.value = false)} /> : <h4>{request}</h4>}
+        <Menu
+          label={`More about the suggestion ${request}`}
+          class="button icon-only"
+          items={[
+            { label: 'Rename', act: () => (renaming.value = true) },
+            { label: 'Move up', disabled: first, act: () => suggestions.move(key, -1) },
+            { label: 'Move down', disabled: last, act: () => suggestions.move(key, 1) },
+            { label: 'Drop', act: () => suggestions.drop(key) },
+          ]}
+        >
+          <Icon name="more" />
+        </Menu>
+      </header>
+      {state.kind === 'reading' && <p class="quiet">Being read…</p>}
+      {state.kind === 'stopped' && <p class="quiet">Not read: it was stopped.</p>}
+      {state.kind === 'refused' && <Warning text={`No slider came of it. ${state.text}`} />}
+      {layer !== undefined && moves && <Moves model={model} proposal={proposal} layer={layer} />}
+      {state.kind === 'found' && state.fault !== null && <Warning text={faultWords(model, state.fault)} />}
+      {state.kind !== 'reading' && (
+        <div class="row wrap">
+          {moves && (
+            <button
+              type="button"
+              class="button outlined"
+              onClick={() => {
+                const kept = suggestions.keep(key);
+                if (kept !== null) playOnce(kept);
+              }}
+            >
+              <Icon name="check" /> {state.fault === null ? 'Keep' : 'Keep anyway'}
+            </button>
+          )}
+          {state.kind === 'found' && state.looser !== null && (
+            <button
+              type="button"
+              class="button outlined"
+              title="Parts that were to stay may follow, so that nothing comes apart"
+              onClick={() => suggestions.loosen(key)}
+            >
+              Let parts follow
+            </button>
+          )}
+          {(state.kind === 'stopped' || state.kind === 'refused') && (
+            <button
+              type="button"
+              class="button outlined"
+              disabled={isRunning}
+              onClick={() => void suggestions.readAgain(key)}
+            >
+              Read it
+            </button>
+          )}
+          <button type="button" class="button" onClick={() => suggestions.drop(key)}>
+            Drop
+          </button>
+        </div>
+      )}
+    </li>
+  );
+}
+
+function Rename({ proposal, done }: { proposal: Proposal; done: () => void }) {
+  const cancelled = useRef(false);
+  return (
+    <input
+      class="rename"
+      value={proposal.request}
+      maxLength={400}
+      aria-label="Name of the slider"
+      ref={(element) => element?.focus()}
+      onBlur={(event) => {
+        done();
+        if (!cancelled.current) suggestions.rename(proposal.key, event.currentTarget.value);
+      }}
+      onKeyDown={(event) => {
+        cancelled.current = event.key === 'Escape';
+        if (event.key === 'Enter' || event.key === 'Escape') event.currentTarget.blur();
+      }}
+    />
+  );
+}
+
+function Warning({ text }: { text: string }) {
+  return (
+    <p class="broken unclean">
+      <Icon name="warning" />
+      <span>{text}</span>
+    </p>
+  );
+}
+
+export function faultWords({ shape }: OpenModel, fault: Fault): string {
+  switch (fault.kind) {
+    case 'still':
+      return 'Nothing can move: at any other position a part would collapse.';
+    case 'same':
+      return `It does the same as “${fault.as}”`;
+    case 'broken': {
+      const words = fault.relations.flatMap((id) => {
+        const relation = shape.relations.find((one) => one.id === id);
+        return relation === undefined ? [] : [relationWords(document.value, relation)];
+      });
+      return `Not kept on the way: ${listWords(words)}.`;
+    }
+  }
+}
+
+const ends = ['least', 'as it is', 'most'] as const;
+const steps = 200;
+
+/** The pictures, each a click to that value, and the slider. */
+function Moves({ model, proposal, layer }: { model: OpenModel; proposal: Proposal; layer: Layer }) {
+  const { key, request } = proposal;
+  const { min, max } = layer.parameter;
+  const value = suggestions.standing(key);
+  const text = readingOf(model, layer, value);
+  const urls = strips.value.get(layer);
+  const unit = (max - min) / steps;
+  const share = (x: number) => (x - min) / (max - min);
+  const go = (to: number) => suggestions.preview(key, Math.min(max, Math.max(min, to)));
+  return (
+    <>
+      <div class="strip">
+        {strip(layer.parameter).map((to, i) => (
+          <button
+            key={ends[i]}
+            type="button"
+            aria-label={`${request}: ${ends[i]}`}
+            aria-pressed={value === to}
+            onClick={() => go(to)}
+          >
+            {urls?.[i] !== undefined && <img src={urls[i]} alt="" />}
+          </button>
+        ))}
+      </div>
+      <div
+        class="track"
+        style={{ '--zero': share(0), '--low': share(Math.min(0, value)), '--span': Math.abs(share(value) - share(0)) }}
+      >
+        <span class="zero" />
+        <input
+          type="range"
+          min={min}
+          max={max}
+          step="any"
+          value={value}
+          aria-label={`${request}: amount`}
+          aria-valuetext={text}
+          title="Double-click resets"
+          onInput={(event) => go(event.currentTarget.valueAsNumber)}
+          onDblClick={() => go(0)}
+          onKeyDown={(event) => {
+            const sign = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+            if (sign === undefined) return;
+            event.preventDefault(); // step="any" gives the arrows a step of 1 in some browsers
+            go(value + sign * unit * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1));
+          }}
+        />
+      </div>
+      <p class="measure quiet">{text}</p>
+    </>
+  );
+}
+
+/** "seat width 46 cm → 54 cm". */
+function readingOf({ shape }: OpenModel, layer: Layer, value: number): string {
+  const seed = layer.statements.find(({ why }) => why?.kind === 'seed') ?? layer.statements[0];
+  const measure = measureOf(shape, seed);
+  const evaluator = evaluatorOf(shape, layer);
+  if (measure === null || evaluator === null) return value.toFixed(2);
+  const [rest = 0, now = 0] = readAt(shape, measure, evaluator, [0], 0, [0, value]);
+  const show = (reading: number) => formatMeasure(measure.what, reading, larger(rest, now));
+  return `${measureName(measure)} ${value === 0 ? show(rest) : `${show(rest)} → ${show(now)}`}`;
+}

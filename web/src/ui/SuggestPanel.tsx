@@ -1,0 +1,131 @@
+// Suggested sliders: asked for with one click, they come in as cards, each with pictures of what it does, to be kept,
+// renamed, arranged or dropped.
+import { useEffect, useRef } from 'preact/hooks';
+import { costOf, isDemo } from '../llm/settings';
+import { playOnce } from '../session/play';
+import type { Asked } from '../session/proposals';
+import { isClean } from '../session/proposals';
+import { suggestions } from '../session/suggestions';
+import { dialog } from './actions';
+import { Icon } from './Icon';
+import { drawStrips, paintNumbered } from './pictures';
+import { SuggestCard } from './SuggestCard';
+
+export const suggestSliders = (): void => void suggestions.start({ task: 'procedural_requests' }, paintNumbered);
+
+export function SuggestPanel() {
+  const section = useRef<HTMLElement>(null);
+  useEffect(() => drawStrips(suggestions), []);
+  const asked = suggestions.asked.value;
+  const stop = asked?.stop;
+  useEffect(() => {
+    if (stop !== undefined) section.current?.scrollIntoView({ block: 'start' });
+  }, [stop]);
+  if (asked === null) return null;
+  const open = suggestions.open.value;
+  const clean = open.filter(isClean);
+  return (
+    <section class="suggested" aria-label="Suggested sliders" ref={section}>
+      <header class="row">
+        <h3 class="grow">Suggested sliders</h3>
+        {clean.length > 0 && (
+          <button
+            type="button"
+            class="button primary"
+            disabled={asked.isRunning}
+            onClick={() => {
+              const [first] = suggestions.keepAll();
+              if (first !== undefined) playOnce(first);
+            }}
+          >
+            Keep all {clean.length}
+          </button>
+        )}
+        <button
+          type="button"
+          class="button icon-only"
+          aria-label="Drop all suggestions"
+          title="Drop all"
+          onClick={suggestions.close}
+        >
+          <Icon name="close" />
+        </button>
+      </header>
+      <Progress asked={asked} />
+      {asked.failure && (
+        <div class="failed" role="alert">
+          <Icon name="warning" />
+          <p class="grow">{asked.failure.text}</p>
+          {asked.failure.isSetting && (
+            <button type="button" class="button outlined" onClick={() => (dialog.value = 'model')}>
+              Settings
+            </button>
+          )}
+        </div>
+      )}
+      <ul class="cards">
+        {open.map((proposal, i) => (
+          <SuggestCard
+            key={proposal.key}
+            model={asked.model}
+            proposal={proposal}
+            first={i === 0}
+            last={i === open.length - 1}
+            isRunning={asked.isRunning}
+          />
+        ))}
+      </ul>
+      {asked.dropped.length > 0 && (
+        <details>
+          <summary>Left out of the answer: {asked.dropped.length}</summary>
+          <ul>
+            {asked.dropped.map(({ request, reason }) => (
+              <li key={`${request} ${reason}`}>
+                “{request}” <span class="quiet">{reason}</span>
+              </li>
+            ))}
+          </ul>
+        </details>
+      )}
+    </section>
+  );
+}
+
+/** One line, and a way to stop; then what it took. */
+function Progress({ asked }: { asked: Asked }) {
+  const { proposals, isAsking, isRunning } = asked;
+  const read = proposals.filter(({ state }) => state.kind !== 'reading').length;
+  return (
+    <div class="row progress" role="status">
+      {isRunning && <span class="spinner" aria-hidden="true" />}
+      <p class="grow quiet">
+        {isAsking
+          ? 'Asking what could vary'
+          : isRunning
+            ? `Reading the suggestions, ${read} of ${proposals.length}`
+            : endWords(asked)}
+      </p>
+      {isRunning && (
+        <button type="button" class="button outlined" onClick={suggestions.stop}>
+          Cancel
+        </button>
+      )}
+    </div>
+  );
+}
+
+function endWords({ proposals, spent }: Asked): string {
+  if (proposals.length === 0) return '';
+  const clean = proposals.filter(isClean).length;
+  const sliders = `${clean} of ${proposals.length} are clean`;
+  if (isDemo.value) return `${sliders} · recorded answers`;
+  const { input, output } = spent.tokens;
+  const cost = costOf(spent.tokens);
+  return [
+    sliders,
+    spent.calls > 0 && `${spent.calls} answers, ${(input + output).toLocaleString('en')} tokens`,
+    spent.calls > 0 && cost !== null && `cost ${cost.toFixed(cost < 0.1 ? 4 : 2)}`,
+  ]
+    .filter(Boolean)
+    .join(' · ');
+}
