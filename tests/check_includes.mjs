@@ -16,6 +16,10 @@ const rooms = {
     may: ['base', 'gltf', 'shape', 'edit'],
     rule: 'export writes edited models; it evaluates programs, no more',
   },
+  split: {
+    may: ['base', 'gltf', 'shape', 'export/apply_file.h'],
+    rule: 'split tells parts apart before shape sees the file; of export it knows what writes a GLB alone',
+  },
   prove: { may: ['base', 'shape', 'amount', 'edit'], rule: 'prove bounds what a program does and knows no search' },
   propagate: {
     may: ['base', 'shape', 'amount', 'edit', 'prove'],
@@ -52,6 +56,7 @@ const rooms = {
       'gallery',
       'cad',
       'family',
+      'split',
     ],
     rule: 'cli is a leaf: commands call rooms',
   },

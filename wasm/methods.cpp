@@ -16,6 +16,7 @@
 #include "core/propagate/solve.h"
 #include "core/prove/together.h"
 #include "core/shape/abstraction.h"
+#include "core/split/split.h"
 #include "wasm/cad_methods.h"
 
 namespace parsel::wasm {
@@ -106,6 +107,27 @@ Result<Output> open(const Input& input) {
   if (!abstraction.ok()) return abstraction.error();  // the open model stays
   model = OpenModel{std::move(abstraction->shape), input.buffers[0], std::move(external)};
   return Output{{{"shape", to_json(model->shape)}}, {}};
+}
+
+/// by: a method of splitting; fine: from 0 to 1. The open model stays what it is.
+Result<Output> split(const Input& input) {
+  if (!model) return no_model();
+  const Result<std::string> by = text_parameter(input, "by");
+  if (!by.ok()) return by.error();
+  const auto method = split_method(*by);
+  if (!method) return wrong_parameter("by", "auto, components, materials or regions");
+  const json fine = input.parameters.value("fine", json());
+  if (!fine.is_number()) return wrong_parameter("fine", "a number");
+  Result<SplitModel> made = split_model(model->file, model->external, {*method, fine.get<double>()}, input.progress);
+  if (!made.ok()) return made.error();
+  json result = {{"by", to_string(made->by)},
+                 {"before", made->before},
+                 {"parts", made->parts},
+                 {"joined", made->joined},
+                 {"warnings", json::array()}};
+  for (const Warning& warning : made->warnings)
+    result["warnings"].push_back({{"place", warning.place}, {"text", warning.text}});
+  return Output{std::move(result), {std::move(made->glb)}};
 }
 
 /// edit: parsel/edit v1.
@@ -296,6 +318,7 @@ constexpr std::array all_methods = {
     Method{"warm_up", warm_up},
     Method{"solve", solve},
     Method{"open", open},
+    Method{"split", split},
     Method{"propagate", propagate_edit},
     Method{"apply", apply},
     Method{"siblings", siblings},

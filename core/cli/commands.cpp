@@ -17,12 +17,13 @@ extern const Command read_command;
 extern const Command reply_command;
 extern const Command sample_command;
 extern const Command score_command;
+extern const Command split_command;
 
 std::span<const Command> commands() {
   static const std::vector<Command> all = {inspect_command,   read_command,    prompt_command,   reply_command,
                                            propagate_command, apply_command,   sample_command,   check_command,
                                            score_command,     convert_command, evaluate_command, cad_command,
-                                           family_command,    gallery_command};
+                                           family_command,    split_command,   gallery_command};
   return all;
 }
 

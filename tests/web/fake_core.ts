@@ -92,6 +92,7 @@ export function fakeCore(): FakeCore {
     inference: understood('left'),
     plain: readPlainly([], false),
     open: () => Promise.reject(new Error('not here')),
+    split: () => Promise.reject(new Error('not here')),
     apply: () => Promise.reject(new Error('not here')),
     async propagate(_, asked, { signal }) {
       core.asked.push(partOf(asked));

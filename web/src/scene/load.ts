@@ -5,6 +5,9 @@ import { collect, type LoadedModel } from './meshes';
 
 export type { LoadedModel } from './meshes';
 
+/** How parts are told apart: see SplitMethod in core/split/split.h. */
+export type SplitBy = 'auto' | 'components' | 'materials' | 'regions';
+
 /** A model as it was opened: one file, and what it refers to. */
 export interface ModelFiles {
   readonly name: string;
@@ -13,6 +16,8 @@ export interface ModelFiles {
   readonly external: ReadonlyMap<string, Uint8Array>;
   /** When the file came compressed: with what, and which extensions decompression lost. */
   readonly decompressed?: { readonly compression: string; readonly lost: readonly string[] };
+  /** When its parts were told apart here: what it was, and how that was done. */
+  readonly split?: { readonly from: ModelFiles; readonly by: SplitBy; readonly fine: number };
   /** When the file was of another format: of which ("STL"), and what of it was left out or missing, in sentences. */
   readonly converted?: { readonly format: string; readonly remarks: readonly string[] };
   /** When the file is what a CAD program makes: the program, as plain data. */

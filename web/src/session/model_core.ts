@@ -26,11 +26,21 @@ export interface Propagation {
   readonly trace?: Trace;
 }
 
+export interface SplitFiles {
+  readonly files: ModelFiles;
+  /** Real parts before and after. */
+  readonly before: number;
+  readonly parts: number;
+  readonly remarks: readonly string[];
+}
+
 type Options = Pick<CallOptions, 'signal' | 'onProgress'>;
 
 export interface ModelCore {
   /** Reads and abstracts a model, with labels that take the place of the file's own. */
   open(files: ModelFiles, options: Options, labels?: Labels): Promise<Shape>;
+  /** The files with their parts told apart, and what was left whole, in sentences. */
+  split(files: ModelFiles, how: Parameters<'split'>, options: Options): Promise<SplitFiles>;
   /** One layer, from a seed edit. */
   propagate(model: OpenModel, edit: EditInput, options: Options): Promise<Propagation>;
   /** The model's file with the program applied. */
@@ -82,6 +92,28 @@ export function modelCore(client: CoreClient): ModelCore {
     async open(files, options, labels = noLabels) {
       const { result } = await client.setUp(stateOf({ files, labels }), options);
       return result.shape as unknown as Shape;
+    },
+    async split(files, how, options) {
+      const { result, buffers } = await client.call('split', how, {
+        ...options,
+        needs: stateOf({ files, labels: noLabels }),
+      });
+      const [main] = buffers;
+      if (main === undefined) throw new Error('The core gave no file.');
+      const { converted, decompressed } = files;
+      return {
+        files: {
+          name: files.name,
+          main,
+          external: new Map(),
+          ...(converted ? { converted } : {}),
+          ...(decompressed ? { decompressed } : {}),
+          split: { from: files, ...how },
+        },
+        before: result.before,
+        parts: result.parts,
+        remarks: result.warnings.map(({ place, text }) => `${place}: ${text}`),
+      };
     },
     async propagate(model, edit, options) {
       const { result } = await client.call('propagate', { edit }, { ...options, needs: stateOf(model) });

@@ -22,9 +22,15 @@ import type { ModelCore } from './model_core';
 import { takeSliders } from './one_file';
 import { carryOver } from './relabel';
 import { document, newEntry, replaceDocument, run, say } from './session';
+import { splitAs } from './split_files';
 
 /** Meshes that have been read for a model that is about to be shown; the stage takes them. */
 const prepared = new WeakMap<ModelFiles, LoadedModel>();
+
+/** Reads the meshes of a model that is about to be shown. */
+export async function prepare(files: ModelFiles): Promise<void> {
+  prepared.set(files, await loadModel(files));
+}
 
 /** The meshes of a model, read again when the stage has had them before. The caller disposes of them. */
 export async function takeLoaded(files: ModelFiles): Promise<LoadedModel> {
@@ -69,7 +75,7 @@ async function abstract(
     const picked = await withProgramRead(core, await get(options.signal), options);
     const taken = takeSliders(await converted(picked, options));
     const found = given === null ? taken.found : null;
-    const files = await decompressed(taken.files, options);
+    const files = await splitAs(given?.saved.split, await decompressed(taken.files, options), core, options);
     let labels = labelsOf(given ?? found?.work ?? null);
     let shape = await core.open(files, options, labels);
     const misfits = found?.misfit(shape) ?? null;
@@ -78,7 +84,7 @@ async function abstract(
       shape = await core.open(files, options, labels);
     }
     const family = await familyOf(core, files, given?.saved.family, options);
-    prepared.set(files, await loadModel(files));
+    await prepare(files);
     options.signal.throwIfAborted();
     const model = { files, source, shape, labels };
     if (given !== null) return { model, work: given, family, refused: null };

@@ -45,6 +45,11 @@ const familySchema = v.strictObject({
   variations: v.exactOptional(v.looseObject({ format: v.literal('parsel/variations') })),
 });
 
+const splitSchema = v.strictObject({
+  by: v.picklist(['auto', 'components', 'materials', 'regions']),
+  fine: v.pipe(v.number(), v.minValue(0), v.maxValue(1)),
+});
+
 const savedSchema = v.strictObject({
   format: v.literal('parsel/session'),
   version: v.literal(1),
@@ -58,6 +63,8 @@ const savedSchema = v.strictObject({
   /** Labels given in place of the file's own, by "node:<index>/<primitive>". */
   labels: v.exactOptional(v.pipe(v.array(label), v.maxLength(limits.statements))),
   family: v.exactOptional(familySchema),
+  /** How the parts were told apart before all else; the hash is that of the result. */
+  split: v.exactOptional(splitSchema),
   view: v.exactOptional(viewSchema),
 });
 export type Saved = v.InferOutput<typeof savedSchema>;
@@ -76,6 +83,7 @@ export function save(document: Document, view?: CameraPose): Saved {
   if (model === null) throw new Error('there is no model to save the work on');
   const { shape, source, labels } = model;
   const family = savedFamily(document);
+  const { split } = model.files;
   return {
     format: 'parsel/session',
     version: 1,
@@ -96,6 +104,7 @@ export function save(document: Document, view?: CameraPose): Saved {
     names: [...names],
     ...(labels.size > 0 ? { labels: [...labels] } : {}),
     ...(family === undefined ? {} : { family: family as unknown as v.InferOutput<typeof familySchema> }),
+    ...(split === undefined ? {} : { split: { by: split.by, fine: split.fine } }),
     ...(view === undefined ? {} : { view }),
   };
 }
@@ -148,6 +157,8 @@ function salvage(json: Json): Work | null {
   const off = new Set(some(listOf(json['off'], 'which edits are off'), v.number(), 'which edits are off'));
   const labels = json['labels'] === undefined ? [] : some(listOf(json['labels'], 'labels'), label, 'labels');
   const view = v.safeParse(viewSchema, json['view']);
+  const split = v.safeParse(splitSchema, json['split']);
+  if (!split.success && json['split'] !== undefined) lost.push('how the parts were told apart');
   if (!view.success && json['view'] !== undefined) lost.push('the view');
   const family = v.safeParse(familySchema, json['family']);
   if (!family.success && json['family'] !== undefined) lost.push('the family');
@@ -167,6 +178,7 @@ function salvage(json: Json): Work | null {
     names: some(listOf(json['names'], 'names'), renamed, 'names'),
     ...(labels.length > 0 ? { labels } : {}),
     ...(family.success ? { family: family.output } : {}),
+    ...(split.success ? { split: split.output } : {}),
     ...(view.success ? { view: view.output } : {}),
   };
   return { saved, lost: [...new Set(lost)] };

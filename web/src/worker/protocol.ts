@@ -105,6 +105,10 @@ const plainSchema = v.strictObject({
 });
 export type PlainInference = v.InferOutput<typeof plainSchema>;
 
+/** How parts are told apart. */
+export const splitMethodSchema = v.picklist(['auto', 'components', 'materials', 'regions']);
+export type SplitMethod = v.InferOutput<typeof splitMethodSchema>;
+
 /** Every method of the core: the JSON parameters that it takes and the JSON result that it gives. */
 export const methodSchemas = {
   /** The version of the core. */
@@ -128,6 +132,21 @@ export const methodSchemas = {
       labels: v.optional(v.record(v.string(), v.string())),
     }),
     result: v.strictObject({ shape: v.looseObject({ format: v.literal('parsel/shape'), version: v.literal(1) }) }),
+  },
+  /**
+   * The opened model with its parts told apart: one buffer, a GLB in which each is a node of its own. `fine`, from 0 to 1:
+   * how small a part may be. `by`: what was done; `before` and `parts`: how many there were and are; `joined`: pieces that
+   * were too small to be parts.
+   */
+  split: {
+    parameters: v.strictObject({ by: splitMethodSchema, fine: v.number() }),
+    result: v.strictObject({
+      by: v.string(),
+      before: v.number(),
+      parts: v.number(),
+      joined: v.number(),
+      warnings: v.array(v.strictObject({ place: v.string(), text: v.string() })),
+    }),
   },
   /** Bytes of the core's memory. It never shrinks, so this is its peak as well. */
   memory: { parameters: v.strictObject({}), result: v.strictObject({ bytes: v.number() }) },

@@ -1,0 +1,71 @@
+// A model in one piece: its parts told apart on request, as a step that undo takes back.
+import { batch, computed, signal } from '@preact/signals';
+import type { ModelFiles, SplitBy } from '../scene/load';
+import { emptyDocument, noLabels, type OpenModel } from './document';
+import type { ModelCore } from './model_core';
+import { prepare } from './open';
+import { document, replaceDocument, run, say, undo, undoLabel } from './session';
+
+/** Fewer parts, and little can follow an edit: splitting is offered. */
+const fewParts = 3;
+export const splitDefaults = { by: 'auto', fine: 0.5 } as const;
+
+/** Models for which nothing came apart, or for which the offer was declined. */
+const settled = signal<ReadonlySet<ModelFiles>>(new Set());
+
+const partsOf = ({ shape }: OpenModel): number => shape.parts.filter(({ virtual }) => !virtual).length;
+
+/** Whether to offer to split the model: it has few parts, and it was not tried. */
+export const offersSplit = computed(() => {
+  const { model } = document.value;
+  return (
+    model !== null && model.files.split === undefined && !settled.value.has(model.files) && partsOf(model) < fewParts
+  );
+});
+
+/** How the present model was split, and into how many parts; null when it was not. */
+export const splitNow = computed(() => {
+  const { model } = document.value;
+  return model?.files.split === undefined ? null : { ...model.files.split, parts: partsOf(model) };
+});
+
+export function declineSplit(): void {
+  const files = document.peek().model?.files;
+  if (files) settled.value = new Set([...settled.peek(), files]);
+}
+
+const stepLabel = 'split into parts';
+
+/**
+ * Tells the parts of the model apart, or, when that was done already, does it anew in another way. One step: doing it
+ * anew takes the place of the step before. Edits, labels and names of the model in one piece do not go along.
+ */
+export async function splitModel(core: ModelCore, by: SplitBy, fine: number): Promise<boolean> {
+  const { model } = document.peek();
+  if (model === null) return false;
+  const from = model.files.split?.from ?? model.files;
+  const made = await run('Looking for the parts', async (options) => {
+    const split = await core.split(from, { by, fine }, options);
+    if (split.parts === split.before) return { split, shape: null };
+    const shape = await core.open(split.files, options);
+    await prepare(split.files);
+    options.signal.throwIfAborted();
+    return { split, shape };
+  });
+  if (made === null || document.peek().model !== model) return false;
+  const { split, shape } = made;
+  if (shape === null) {
+    settled.value = new Set([...settled.peek(), from]);
+    const remarks = split.remarks.length > 0 ? ` Left whole: ${split.remarks.slice(0, 3).join('; ')}.` : '';
+    say(`Nothing in this model comes apart this way.${remarks}`);
+    return false;
+  }
+  const next = { ...emptyDocument, model: { files: split.files, source: model.source, shape, labels: noLabels } };
+  batch(() => {
+    // A second try is no step of its own, as long as nothing was done since.
+    if (model.files.split && undoLabel.peek() === stepLabel) undo();
+    replaceDocument(next, stepLabel);
+  });
+  if (split.remarks.length > 0) say(`Left whole: ${split.remarks.slice(0, 3).join('; ')}.`);
+  return true;
+}
