@@ -2,7 +2,7 @@ import { fileURLToPath } from 'node:url';
 import preact from '@preact/preset-vite';
 import { defineConfig, type Plugin } from 'vite';
 import { VitePWA } from 'vite-plugin-pwa';
-import { contentSecurityPolicy } from './csp.ts';
+import { contentSecurityPolicy, modelHosts } from './csp.ts';
 import { licencePlugin } from './licences.ts';
 
 /** The policy as a <meta> in the page, so that it holds on any static host, and as a header where we are the server. */
@@ -62,6 +62,7 @@ const offline = VitePWA({
 });
 
 export default defineConfig({
+  define: { __MODEL_HOSTS__: JSON.stringify(modelHosts.join(' ')) },
   base: './', // the built page works from any sub-path
   plugins: [securityPolicy(), preact({ devToolsEnabled: false, prefreshEnabled: false }), licencePlugin(), offline],
   resolve: {

@@ -4,7 +4,10 @@
 
 #include "core/cli/command.h"
 #include "core/cli/input.h"
+#include "core/edit/readable.h"
+#include "core/propagate/compose.h"
 #include "core/propagate/propagate.h"
+#include "core/prove/stack.h"
 
 namespace parsel::cli {
 namespace {
@@ -29,7 +32,15 @@ int run(const Arguments& arguments) {
       return refuse(written.error());
   }
   for (const std::string& note : found->trace.notes) std::cerr << "note: " << note << '\n';
-  return write_json(arguments, to_json(found->program));
+  if (!arguments.has("--onto")) return write_json(arguments, to_json(found->program));
+  const Result<Program> there = read_program(arguments.option("--onto"), *shape);
+  if (!there.ok()) return refuse(there.error());
+  Result<Program> both = stack_programs(*shape, {*there, found->program});
+  if (!both.ok()) return refuse(both.error());
+  std::cerr << "note: " << in_words(judge_stack(*shape, *both)) << '\n';
+  prove_anew(*shape, *both);
+  if (const Status ready = readable(*both, *shape); !ready.ok()) return refuse(ready.error());
+  return write_json(arguments, to_json(*both));
 }
 
 }  // namespace
@@ -37,10 +48,12 @@ int run(const Arguments& arguments) {
 extern const Command propagate_command;
 const Command propagate_command = {
     "propagate",
-    "MODEL.glb|SHAPE.json EDIT.json [-o PROGRAM.json] [--trace TRACE.json] [--request TEXT] [--no-neighbour-edits] "
-    "[--no-breaking-edits]",
-    "Finds the edits that follow from seed edits, as a program (--trace: and why).",
-    {"-o", "--trace", "--request"},
+    "MODEL.glb|SHAPE.json EDIT.json [--onto PROGRAM] [-o PROGRAM.json] [--trace TRACE.json] [--request TEXT] "
+    "[--no-neighbour-edits] [--no-breaking-edits]",
+    "Finds the edits that follow from seed edits, as a program (--trace: and why; --onto: as the last layer of a "
+    "program, "
+    "worked out on what its other layers leave).",
+    {"-o", "--trace", "--request", "--onto"},
     {"--no-neighbour-edits", "--no-breaking-edits"},
     run};
 

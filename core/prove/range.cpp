@@ -47,17 +47,21 @@ Jet corner_volume(const JetCorners& corners, int k) {
 
 class Limits {
  public:
-  Limits(const Shape& shape, Program program, std::size_t layer)
+  Limits(const Shape& shape, const Program& program, std::size_t layer) : Limits(shape, program, layer, layer) {}
+  /// Of the amounts those from layer `first` to `layer` are looked at.
+  Limits(const Shape& shape, const Program& program, std::size_t first, std::size_t layer)
       : shape_(shape), layer_(layer), evaluator_(program, shape), enclosure_(shape, program, layer) {
     std::vector<std::string> names;
     for (const Layer& l : program.layers) {
       names.push_back(l.parameter.name);
       values_.push_back(l.parameter.value);
     }
-    for (const Statement& statement : program.layers[layer].statements) {
-      if (statement.op == Op::keep_fixed) continue;
-      amounts_.push_back(statement.amount.compile(names));
-      targets_.push_back(is_geometric(statement.op) ? statement.part : statement.relation);
+    for (std::size_t l = first; l <= layer; ++l) {
+      for (const Statement& statement : program.layers[l].statements) {
+        if (statement.op == Op::keep_fixed) continue;
+        amounts_.push_back(statement.amount.compile(names));
+        targets_.push_back(is_geometric(statement.op) ? statement.part : statement.relation);
+      }
     }
     const Scope scope = scope_of(shape, program, layer, {});
     dissolved_ = scope.dissolved;
@@ -75,16 +79,15 @@ class Limits {
   /// What goes wrong at x; empty when nothing does.
   std::string failure(double x) {
     values_[layer_] = x;
-    return failure_at(values_);
+    return failure_at(values_, evaluator_(values_));
   }
 
-  std::string failure_at(const std::vector<double>& values) const {
+  std::string failure_at(const std::vector<double>& values, const State& state) const {
     for (std::size_t i = 0; i < amounts_.size(); ++i) {
       const double amount = amounts_[i](values.data());
       if (std::isnan(amount)) return "the amount of " + targets_[i] + " would be undefined";
       if (!(std::abs(amount) < largest_amount)) return "the amount of " + targets_[i] + " would be too large";
     }
-    const State state = evaluator_(values);
     for (const PartIndex p : shape_.parts.indices()) {
       if (edited_.count(p) == 0 || !is_active(shape_, p, dissolved_)) continue;
       const Part& part = shape_.parts[p];
@@ -243,7 +246,7 @@ Range find_range(const Shape& shape, const Program& program, std::size_t layer, 
   PARSEL_ASSERT(layer < program.layers.size(), "the layer exists");
   Program applied = program;
   applied.layers.resize(layer + 1);
-  Limits limits(shape, std::move(applied), layer);
+  Limits limits(shape, applied, layer);
   Range range;
   const std::string at_rest = limits.failure(0);
   if (!at_rest.empty()) {
@@ -256,7 +259,7 @@ Range find_range(const Shape& shape, const Program& program, std::size_t layer, 
 }
 
 struct StackFailure::Implementation {
-  Implementation(const Shape& shape, const Program& program) : limits(shape, program, program.layers.size() - 1) {}
+  Implementation(const Shape& shape, const Program& program) : limits(shape, program, 0, program.layers.size() - 1) {}
   Limits limits;
 };
 
@@ -265,8 +268,8 @@ StackFailure::StackFailure(const Shape& shape, const Program& program) {
   implementation_ = std::make_shared<const Implementation>(shape, program);
 }
 
-std::string StackFailure::operator()(const std::vector<double>& values) const {
-  return implementation_->limits.failure_at(values);
+std::string StackFailure::operator()(const std::vector<double>& values, const State& state) const {
+  return implementation_->limits.failure_at(values, state);
 }
 
 }  // namespace parsel

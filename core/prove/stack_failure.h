@@ -5,18 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "core/edit/program.h"
+#include "core/edit/evaluate.h"
 #include "core/shape/shape.h"
 
 namespace parsel {
 
 /// What goes wrong, of what find_range() looks at, where every layer stands at its own of `values`; empty when nothing
-/// does. Amounts are looked at in the last layer only. For repeated use: see Together (together.h).
+/// does. For repeated use: see Together (together.h).
 class StackFailure {
  public:
   /// `shape` must live as long; the program has at least one layer and passed validate().
   StackFailure(const Shape& shape, const Program& program);
-  std::string operator()(const std::vector<double>& values) const;
+  /// `state`: what the program gives at `values`.
+  std::string operator()(const std::vector<double>& values, const State& state) const;
 
  private:
   struct Implementation;

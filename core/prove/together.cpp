@@ -33,7 +33,7 @@ double drawn(const Parameter& parameter, Random& random) {
 
 }  // namespace
 
-Together::Together(const Shape& shape, const Program& program)
+Together::Together(const Shape& shape, const Program& program, Alone alone)
     : shape_(shape), evaluate_(program, shape), failure_(shape, program) {
   Program at_rest = program;
   for (Layer& layer : at_rest.layers) layer.parameter.value = 0;
@@ -41,7 +41,9 @@ Together::Together(const Shape& shape, const Program& program)
   for (std::size_t i = 0; i < program.layers.size(); ++i) {
     const std::set<std::string> own = disabled_in(program.layers[i]);
     disabled.insert(own.begin(), own.end());
-    for (const RelationReport& report : prove_relations(shape, at_rest, i, own)) {
+    std::vector<RelationReport> reports = program.layers[i].relations;
+    if (alone == Alone::proven || reports.empty()) reports = prove_relations(shape, at_rest, i, own);
+    for (const RelationReport& report : reports) {
       if (report.status != RelationStatus::held) not_kept.insert(report.id);
     }
   }
@@ -50,29 +52,35 @@ Together::Together(const Shape& shape, const Program& program)
     const Relation& relation = shape.relations[r];
     judged_.push_back({make_constraint(shape, r), tolerance_of(relation, scope),
                        not_kept.count(relation.id) == 0 && !is_disabled(relation, disabled)});
+    if (judged_.back().is_kept_alone) kept_alone_.push_back(relation.id);
   }
+}
+
+Together::Look Together::look(const std::vector<double>& values) const {
+  const State state = evaluate_(values);
+  Look look;
+  look.failure = failure_(values, state);
+  std::size_t number = 0;
+  for (const Judged& judged : judged_) {
+    const bool kept = deviation(judged.constraint, state) <= judged.tolerance;
+    look.kept += kept;
+    if (!judged.is_kept_alone) continue;
+    if (!kept) look.lost.push_back(number);
+    ++number;
+  }
+  return look;
 }
 
 std::string Together::fault(const std::vector<double>& values) const {
-  std::string failure = failure_(values);
-  if (!failure.empty()) return failure;
-  const State state = evaluate_(values);
-  for (const Judged& judged : judged_) {
-    if (judged.is_kept_alone && deviation(judged.constraint, state) > judged.tolerance) {
-      return "no longer true: " + describe(shape_, judged.constraint.index);
-    }
-  }
-  return "";
+  const Look seen = look(values);
+  if (!seen.failure.empty()) return seen.failure;
+  if (seen.lost.empty()) return "";
+  const auto relation = shape_.find_relation(kept_alone_[seen.lost.front()]);
+  return "no longer true: " + describe(shape_, *relation);
 }
 
 Together::Count Together::relations(const std::vector<double>& values) const {
-  const State state = evaluate_(values);
-  Count count;
-  for (const Judged& judged : judged_) {
-    ++count.of;
-    if (deviation(judged.constraint, state) <= judged.tolerance) ++count.kept;
-  }
-  return count;
+  return {look(values).kept, static_cast<int>(judged_.size())};
 }
 
 Result<Siblings> draw_siblings(const Shape& shape, const Program& program, int count, std::uint64_t seed) {

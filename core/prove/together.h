@@ -18,9 +18,21 @@ namespace parsel {
 
 class Together {
  public:
-  /// `program` passed validate() for `shape`, which must live as long, and has at least one layer. Proves once for each
-  /// layer, with the others at 0, which relations it keeps.
-  Together(const Shape& shape, const Program& program);
+  /// How it is known what a layer keeps alone: `proven` here, with the others at 0; or `as_reported` by the layer itself,
+  /// and proven where it reports nothing.
+  enum class Alone { proven, as_reported };
+  /// `program` passed validate() for `shape`, which must live as long, and has at least one layer.
+  Together(const Shape& shape, const Program& program, Alone alone = Alone::proven);
+
+  /// What is seen at one setting, which is evaluated once.
+  struct Look {
+    std::string failure;            ///< of cages, rows and amounts (stack_failure.h); empty when there is none
+    std::vector<std::size_t> lost;  ///< of kept_alone(), ascending, those beyond their tolerance
+    int kept = 0;                   ///< of all relations that the program touches, those within
+  };
+  Look look(const std::vector<double>& values) const;
+  /// Ids of the relations that each layer keeps alone, in the shape's order.
+  const std::vector<std::string>& kept_alone() const { return kept_alone_; }
 
   /// What is wrong with the state where layer i stands at values[i], a clause for people: a part that is inside out or
   /// collapsed, instances that run into each other, a relation beyond its tolerance (slack.h) that each layer alone
@@ -43,6 +55,7 @@ class Together {
   Evaluator evaluate_;
   StackFailure failure_;
   std::vector<Judged> judged_;
+  std::vector<std::string> kept_alone_;
 };
 
 inline constexpr int most_siblings = 10'000;

@@ -19,7 +19,7 @@ let shape: Shape;
 let checked: CheckedProgram;
 let keys: readonly number[];
 beforeAll(async () => {
-  ({ page, complaints } = await openModel(site.browser, site.url, stool));
+  ({ page, complaints } = await openModel(site.browser, site.url, stool, { reducedMotion: 'reduce' }));
   shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
   const result = checkProgram(program(shape), shape);
   if (!result.ok) throw new Error(result.error.cause);

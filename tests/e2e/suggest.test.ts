@@ -44,8 +44,8 @@ describe('without a key', () => {
     const begin = Date.now();
     await suggest(page);
     await expect.poll(() => sliders(page).count()).toBe(6);
-    // A second or two where nothing else runs. Ten is the promise; a busy machine opens the page slowly as well.
-    expect(Date.now() - begin).toBeLessThan(Math.max(10_000, opening));
+    // Ten seconds is the promise. A busy machine that draws in software is slow in everything: it is held against opening.
+    expect(Date.now() - begin).toBeLessThan(Math.max(10_000, 3 * opening));
     await finished(page);
     await expect.poll(() => panel(page).locator('.strip img').count()).toBe(18);
     const rest = await corners(page);

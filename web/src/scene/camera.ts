@@ -12,12 +12,15 @@ export interface Insets {
   readonly bottom: number;
 }
 
-export type StandardView = 'front' | 'right' | 'top' | 'home';
+/** Sides are the object's own: its left is +X. */
+export type StandardView = 'front' | 'left' | 'back' | 'right' | 'top' | 'home';
 
 /** Azimuth and polar angle in radians; the asset's front faces +Z. */
 const viewAngles: Record<StandardView, [azimuth: number, polar: number]> = {
   front: [0, Math.PI / 2],
-  right: [Math.PI / 2, Math.PI / 2],
+  left: [Math.PI / 2, Math.PI / 2],
+  back: [Math.PI, Math.PI / 2],
+  right: [-Math.PI / 2, Math.PI / 2],
   top: [0, 0],
   home: [0.55, 1.2],
 };
@@ -25,21 +28,33 @@ const viewAngles: Record<StandardView, [azimuth: number, polar: number]> = {
 /** Where the camera is, as it goes into a link: azimuth, polar angle, distance, target. */
 export type CameraPose = readonly [number, number, number, number, number, number];
 
+/** How fast the camera follows, seconds: what a person asks for, and what it does by itself. */
+const quick = 0.18;
+const gentle = 0.4;
+
 export class CameraRig {
   readonly camera = new three.PerspectiveCamera(30, 1, 0.02, 60);
   readonly #controls: CameraControls;
   #insets: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
   #width = 1;
   #height = 1;
+  /** Where the camera was put to see the whole; null when it shall stay where it is. */
+  #framed: { readonly target: three.Vector3; readonly distance: number } | null = null;
 
-  constructor(canvas: HTMLCanvasElement, reducedMotion: boolean) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly reducedMotion: boolean,
+  ) {
     const controls = new CameraControls(this.camera, canvas);
-    controls.smoothTime = reducedMotion ? 0 : 0.18;
+    controls.smoothTime = reducedMotion ? 0 : quick;
     controls.draggingSmoothTime = reducedMotion ? 0 : 0.06;
     controls.dollyToCursor = true;
     controls.minDistance = 0.3;
     controls.maxDistance = 30;
     controls.maxPolarAngle = Math.PI * 0.98;
+    controls.addEventListener('control', () => {
+      controls.smoothTime = reducedMotion ? 0 : quick;
+    });
     this.#controls = controls;
     void controls.rotateTo(...viewAngles.home, false);
   }
@@ -78,20 +93,74 @@ export class CameraRig {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Brings a sphere into the free part of the canvas. */
-  fit(sphere: three.Sphere, animate: boolean): void {
-    const { left, right, top, bottom } = this.#insets;
-    const freeHeight = Math.max(80, this.#height - top - bottom);
-    const freeWidth = Math.max(80, this.#width - left - right);
-    const halfAngle = three.MathUtils.degToRad(this.camera.fov / 2);
-    const smaller = Math.min(freeHeight, freeWidth) / this.#height; // of the canvas' height, which `fov` spans
-    const distance = (1.04 * sphere.radius) / Math.sin(Math.atan(Math.tan(halfAngle) * smaller));
-    const { x, y, z } = sphere.center;
-    void this.#controls.moveTo(x, y, z, animate);
+  /**
+   * Brings a sphere into the free part of the canvas.
+   * @param whole it is the whole model, which is kept in sight from then on (keepFramed)
+   */
+  fit(sphere: three.Sphere, animate: boolean, whole: boolean): void {
+    const [x, y] = this.#slopes();
+    this.#moveTo(sphere.center, (1.04 * sphere.radius) / Math.sin(Math.atan(Math.min(x, y))), animate, quick);
+    if (!whole) this.#framed = null;
+  }
+
+  /** Whether the camera sees the whole from where it was put, or was only turned since: nobody has moved or zoomed it. */
+  get isFramed(): boolean {
+    if (this.#framed === null) return false;
+    const { target, distance } = this.#framed;
+    const { radius } = this.#controls.getSpherical(new three.Spherical(), true);
+    const off = this.#controls.getTarget(new three.Vector3(), true).distanceTo(target);
+    return off < 1e-3 * distance && Math.abs(radius - distance) < 1e-3 * distance;
+  }
+
+  /**
+   * Gently follows a model that grows, unless a person has moved or zoomed the camera since the last fit.
+   * @param atFit what was framed then, which stays in sight, so that a slider that goes back brings the camera back
+   */
+  keepFramed(atFit: three.Box3, now: three.Box3): void {
+    if (!this.isFramed) return;
+    const box = boxScratch.copy(atFit).union(now);
+    const centre = box.getCenter(new three.Vector3());
+    const [slopeX, slopeY] = this.#slopes();
+    const { radius } = atFit.getBoundingSphere(new three.Sphere());
+    let distance = (1.04 * radius) / Math.sin(Math.atan(Math.min(slopeX, slopeY))); // as in fit()
+    const spherical = this.#controls.getSpherical(new three.Spherical(), true);
+    const back = new three.Vector3().setFromSpherical(spherical).normalize();
+    const right = new three.Vector3(Math.cos(spherical.theta), 0, -Math.sin(spherical.theta));
+    const up = new three.Vector3().crossVectors(back, right);
+    for (let k = 0; k < 8; k++) {
+      const corner = new three.Vector3(
+        k & 1 ? box.max.x : box.min.x,
+        k & 2 ? box.max.y : box.min.y,
+        k & 4 ? box.max.z : box.min.z,
+      ).sub(centre);
+      const aside = Math.max(Math.abs(corner.dot(right)) / slopeX, Math.abs(corner.dot(up)) / slopeY);
+      distance = Math.max(distance, 1.04 * aside + corner.dot(back));
+    }
+    const { target, distance: last } = this.#framed ?? { target: centre, distance };
+    // As good as exactly: what comes back to where it was is drawn as it was.
+    const isThere = target.distanceTo(centre) < 1e-9 && Math.abs(last - distance) < 1e-9;
+    if (!isThere) this.#moveTo(centre, distance, true, gentle);
+  }
+
+  #moveTo(centre: three.Vector3, distance: number, animate: boolean, smoothTime: number): void {
+    this.#controls.smoothTime = this.reducedMotion ? 0 : smoothTime;
+    void this.#controls.moveTo(centre.x, centre.y, centre.z, animate);
     void this.#controls.dollyTo(distance, animate);
+    this.#framed = {
+      target: centre.clone(),
+      distance: this.#controls.getSpherical(new three.Spherical(), true).radius,
+    };
+  }
+
+  /** Tangents of the angles between the line of sight and the sides of the free part of the canvas, across and up. */
+  #slopes(): [x: number, y: number] {
+    const { left, right, top, bottom } = this.#insets;
+    const half = Math.tan(three.MathUtils.degToRad(this.camera.fov / 2)) / this.#height; // `fov` spans the height
+    return [half * Math.max(80, this.#width - left - right), half * Math.max(80, this.#height - top - bottom)];
   }
 
   look(view: StandardView, animate: boolean): void {
+    this.#controls.smoothTime = this.reducedMotion ? 0 : quick;
     const [azimuth, polar] = viewAngles[view];
     const turns = Math.round((this.#controls.azimuthAngle - azimuth) / (2 * Math.PI)); // the short way round
     void this.#controls.rotateTo(azimuth + turns * 2 * Math.PI, polar, animate);
@@ -99,10 +168,16 @@ export class CameraRig {
 
   /** By keyboard: radians about the model, or a factor of the distance. */
   turn(azimuth: number, polar: number): void {
+    this.#controls.smoothTime = this.reducedMotion ? 0 : quick;
     void this.#controls.rotate(azimuth, polar, true);
   }
   zoom(factor: number): void {
     void this.#controls.dollyTo(this.#controls.distance * factor, true);
+  }
+
+  /** Radians about the vertical from in front of the model, and down from above it. */
+  get angles(): { readonly azimuth: number; readonly polar: number } {
+    return { azimuth: this.#controls.azimuthAngle, polar: this.#controls.polarAngle };
   }
 
   get pose(): CameraPose {
@@ -112,6 +187,7 @@ export class CameraRig {
     return [azimuthAngle, polarAngle, distance, x, y, z].map(round) as unknown as CameraPose;
   }
   set pose([azimuth, polar, distance, x, y, z]: CameraPose) {
+    this.#framed = null;
     void this.#controls.moveTo(x, y, z, false);
     void this.#controls.rotateTo(azimuth, polar, false);
     void this.#controls.dollyTo(distance, false);
@@ -121,3 +197,5 @@ export class CameraRig {
     this.#controls.dispose();
   }
 }
+
+const boxScratch = new three.Box3();

@@ -34,12 +34,14 @@ export class Stage {
   /** As drawn: other than #state in the exploded view. */
   #drawn: State | null = null;
   #apart = 0;
+  /** Bounds of the whole when it was brought into view. */
+  readonly #fitted = new three.Box3();
   #accent = '#2361cf';
   #quiet = '#5a5f66';
   /** Reports the loss of the graphics context, and that it is back. */
   onContext: (lost: boolean) => void = () => {};
-  /** Called after every frame, for what is laid over the canvas. */
-  onDraw: () => void = () => {};
+  /** Called after every frame: what is laid over the canvas. */
+  readonly drawn = new Set<() => void>();
 
   /** @param canvas fills its parent; the stage follows its size. */
   constructor(
@@ -160,7 +162,14 @@ export class Stage {
     const box = part === null ? shapeBounds(shape, this.#drawn) : partBounds(this.#drawn.corners, part);
     const bounds = box.getBoundingSphere(new three.Sphere());
     if (part !== null) bounds.radius = Math.max(bounds.radius * 2, 0.2);
-    this.rig.fit(bounds, animate);
+    if (part === null) this.#fitted.copy(box);
+    this.rig.fit(bounds, animate, part === null);
+  }
+
+  /** Keeps the whole in view while it changes, unless a person has moved the camera. */
+  keepInView(): void {
+    if (this.#actor !== null && this.#drawn !== null)
+      this.rig.keepFramed(this.#fitted, shapeBounds(this.#actor.view.shape, this.#drawn));
   }
 
   /** @param x,y CSS pixels in the window */
@@ -286,7 +295,7 @@ export class Stage {
     this.#clock.update(time);
     const moving = this.rig.update(Math.min(this.#clock.getDelta(), 0.1));
     this.#renderer.render(this.#scene, this.rig.camera);
-    this.onDraw();
+    for (const listener of this.drawn) listener();
     if (moving) this.invalidate();
   };
 

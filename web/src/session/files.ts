@@ -3,6 +3,7 @@
 import { type Format, formats } from '../formats/model';
 import { jsonLimits, parseJson } from '../program/json';
 import type { ModelFiles } from '../scene/load';
+import { mayFetchFrom, modelHosts } from './model_hosts';
 
 /** Running limits on what is read, against archives that are bombs. */
 export const fileLimits = { bytes: 512 * 2 ** 20, entries: 10_000 } as const;
@@ -232,15 +233,15 @@ function safeDecode(uri: string): string {
 export const addressOf = (address: string): string | null =>
   URL.canParse(address, location.href) ? new URL(address, location.href).href : null;
 
-/** Fetches a model. The page's policy lets it ask its own site and this machine, nobody else. */
+/** Fetches a model. The page's policy lets it ask its own site, this machine and the hosts of model_hosts.ts, nobody else. */
 export async function readUrl(address: string, signal: AbortSignal): Promise<FileSet> {
   const full = addressOf(address);
   if (full === null) throw new FileError('That is no address. It should read like https://…/model.glb.');
   const url = new URL(full);
-  const local = url.hostname === 'localhost' || url.hostname === '127.0.0.1';
-  if (url.origin !== location.origin && !local) {
+  if (!mayFetchFrom(url, location.origin)) {
+    const hosts = modelHosts.length > 0 ? ` It may from ${modelHosts.join(' and ')}.` : '';
     throw new FileError(
-      `This page may not fetch from ${url.hostname}, for your safety. Download the file and drop it here.`,
+      `This page may not fetch from ${url.hostname}, for your safety.${hosts} Download the file and drop it here.`,
     );
   }
   const response = await fetch(url, { signal }).catch(() => null);

@@ -52,7 +52,13 @@ export interface ModelCore {
   /** What a language model is asked for proposals; see `proposal_prompt` in protocol.ts. */
   proposalPrompt(model: OpenModel, about: Parameters<'proposal_prompt'>): Promise<MethodResult<'proposal_prompt'>>;
   /** Random settings of a program's sliders that are sound together; the same for the same seed. */
-  siblings(model: OpenModel, program: Program, count: number, seed: number): Promise<MethodResult<'siblings'>>;
+  siblings(
+    model: OpenModel,
+    program: Program,
+    count: number,
+    seed: number,
+    options: Options,
+  ): Promise<MethodResult<'siblings'>>;
   /** An OpenSCAD text as parts, and the GLB that they make. */
   readCad(
     name: string,
@@ -130,8 +136,9 @@ export function modelCore(client: CoreClient): ModelCore {
     async proposalPrompt(model, about) {
       return (await client.call('proposal_prompt', about, { needs: stateOf(model) })).result;
     },
-    async siblings(model, program, count, seed) {
-      return (await client.call('siblings', { program, count, seed }, { needs: stateOf(model) })).result;
+    async siblings(model, program, count, seed, options) {
+      const needs = stateOf(model);
+      return (await client.call('siblings', { program, count, seed }, { ...options, needs })).result;
     },
     async readCad(name, text, options) {
       const { result, buffers } = await client.call('open_cad', { name }, { ...options, buffers: [text] });

@@ -1,10 +1,11 @@
-// The parts: which one is selected, which are lit, hidden or renamed.
-import { type Signal, signal } from '@preact/signals';
+// The parts: which are selected, lit, hidden or renamed.
+import { batch, computed, type ReadonlySignal, type Signal, signal } from '@preact/signals';
 import { cutBytes } from '../program/cut';
 import { limits } from '../program/schema';
 import type { LocalTriple } from '../program/types';
 import { type Document, nameOf, wholePart } from './document';
 import type { History } from './history';
+import { realParts } from './several';
 
 export interface Selection {
   readonly part: string;
@@ -19,13 +20,23 @@ export interface PointedAt {
 }
 
 export interface Parts {
+  /** The part that was selected first, with its feature. */
   readonly selection: Signal<Selection | null>;
+  /** Ids of all parts that are selected, that one first. */
+  readonly selected: ReadonlySignal<readonly string[]>;
   readonly hovered: Signal<string | null>;
   /** What lights up while the pointer or the focus is on a line that is about it. */
   readonly pointedAt: Signal<PointedAt | null>;
+  /** Selects one part alone, or none. */
   select(part: string | null, feature?: LocalTriple): void;
+  /** Selects some parts. */
+  selectAll(ids: readonly string[]): void;
+  /** Selects a part together with those that are, or no longer. */
+  selectAlso(part: string): void;
   setHidden(ids: readonly string[], hidden: boolean): void;
   showAll(): void;
+  /** Hides everything but some parts; where nothing else is shown, shows all again. */
+  isolate(ids: readonly string[]): void;
   /** An empty name is the file's own. */
   renamePart(id: string, name: string): void;
 }
@@ -33,13 +44,30 @@ export interface Parts {
 export function createParts(history: History<Document>): Parts {
   const document = history.present;
   const selection = signal<Selection | null>(null);
+  const further = signal<readonly string[]>([]);
+  const selected = computed(() => (selection.value === null ? [] : [selection.value.part, ...further.value]));
   const change = (label: string, next: Partial<Document>) => history.push(label, { ...document.peek(), ...next });
+  const choose = ([first, ...rest]: readonly string[]) =>
+    batch(() => {
+      further.value = rest;
+      if (first === undefined) selection.value = null;
+      else if (first !== selection.peek()?.part) selection.value = { part: first, feature: wholePart };
+    });
   return {
     selection,
+    selected,
     hovered: signal(null),
     pointedAt: signal(null),
     select(part, feature = wholePart) {
-      selection.value = part === null ? null : { part, feature };
+      batch(() => {
+        further.value = [];
+        selection.value = part === null ? null : { part, feature };
+      });
+    },
+    selectAll: choose,
+    selectAlso(part) {
+      const now = selected.peek();
+      choose(now.includes(part) ? now.filter((id) => id !== part) : [...now, part]);
     },
     setHidden(ids, hidden) {
       const next = new Set(document.peek().hidden);
@@ -50,6 +78,15 @@ export function createParts(history: History<Document>): Parts {
     },
     showAll() {
       if (document.peek().hidden.size > 0) change('show all', { hidden: new Set() });
+    },
+    isolate(ids) {
+      const { model, hidden } = document.peek();
+      if (model === null) return;
+      const kept = new Set(realParts(model.shape, ids));
+      const others = model.shape.parts.filter(({ id, virtual }) => !virtual && !kept.has(id)).map(({ id }) => id);
+      const isAlone = others.every((id) => hidden.has(id)) && [...kept].every((id) => !hidden.has(id));
+      if (isAlone) change('show all', { hidden: new Set() });
+      else change('show these only', { hidden: new Set(others) });
     },
     renamePart(id, typed) {
       const name = cutBytes(typed, limits.nameLength); // a longer one could be saved, but not opened again

@@ -15,6 +15,8 @@ import { sentence } from './tasks';
 /** A feature of a part that a hand holds; the whole part is moved, a face stretches it. */
 export interface Grab {
   readonly part: string;
+  /** Parts that get the same edit, each of its own. */
+  readonly also: readonly string[];
   readonly feature: LocalTriple;
   /** The global axis along which a part, an edge or a corner goes; a face goes along its own normal. */
   readonly axis: Axis;
@@ -77,7 +79,7 @@ function mirrorsAcross({ relations }: Shape, direction: Vec3): readonly Reflecti
  * What grabbing means. A face stretches its part from the opposite face, or from the centre where the part lies across
  * a mirror plane of the shape: pulling at one side of a seat then widens the chair, and keeps it symmetric.
  */
-export function seedOfGrab(shape: Shape, { part: id, feature, axis, oneSided }: Grab): Statement {
+export function seedOfGrab(shape: Shape, { part: id, feature, axis, oneSided }: Omit<Grab, 'also'>): Statement {
   const amount = 'x';
   const part = shape.parts.find((other) => other.id === id);
   if (part === undefined || !isFace(feature)) {
@@ -110,9 +112,10 @@ export async function beginPull(core: ModelCore, grab: Grab, request: string): P
   pull.value = begun;
 
   const seed = seedOfGrab(model.shape, grab);
+  const all = [seed, ...grab.also.map((part) => seedOfGrab(model.shape, { ...grab, part }))];
   const last = activeLayers(document.peek()).at(-1);
   const seeds = last?.layer.statements.filter(({ why }) => why?.kind === 'seed') ?? [];
-  if (last !== undefined && seeds.length === 1 && seeds[0] !== undefined && isSameEdit(seeds[0], seed)) {
+  if (last !== undefined && seeds.length === all.length && all.every((one) => seeds.some((s) => isSameEdit(s, one)))) {
     pull.value = { ...begun, layer: follow(last.key, index, grab.feature, direction, seed) };
     return true;
   }
@@ -121,7 +124,7 @@ export async function beginPull(core: ModelCore, grab: Grab, request: string): P
   abort = new AbortController();
   const { signal: cancelled } = abort;
   try {
-    const found = await core.propagate(model, { seed: [seed], disabled, hints: {} }, { signal: cancelled });
+    const found = await core.propagate(model, { seed: all, disabled, hints: {} }, { signal: cancelled });
     if (pull.peek() !== begun || document.peek().model !== model) return false;
     const [entry] = entriesOf({ ...found, program: withRequest(found.program, request) }) ?? [];
     if (entry === undefined) throw new Error('Nothing came of it');

@@ -22,8 +22,8 @@ export async function drawSiblings(count: number): Promise<readonly Sibling[] | 
   const layers = activeLayers(document.peek());
   const own = seed.peek();
   seed.value = own + 1;
-  const drawn = await run('Looking for settings that go together', () =>
-    core.siblings(model, programOf(model.shape, layers), count, own),
+  const drawn = await run('Looking for settings that go together', (options) =>
+    core.siblings(model, programOf(model.shape, layers), count, own, options),
   );
   if (drawn === null || document.peek().model !== model) return null;
   return drawn.siblings.map((values) => ({

@@ -8,9 +8,11 @@ import { document } from '../session/session';
 import { suggestions } from '../session/suggestions';
 import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
+import { Compass } from './Compass';
 import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
 import { ExploreDialog } from './ExploreDialog';
+import { FirstScreen } from './FirstScreen';
 import { isEmbedded } from './frame';
 import { Handles } from './Handles';
 import { HelpDialog, Licences } from './HelpDialog';
@@ -65,20 +67,31 @@ export function App() {
     ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 98 : 158 }
     : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 150 };
   const edits = <RightPanel pickKind={pickKind} />;
+  const parts = (
+    <PartsPanel
+      onEdit={() => {
+        pickKind.value ??= 'whole';
+        editsOpen.value = true;
+        tab.value = 'edits';
+      }}
+    />
+  );
   return (
     <div class={`app ${isPhone.value ? 'phone' : ''}`}>
       <StageView insets={insets} pickKind={pickKind} />
+      <Compass right={insets.right} />
       <Handles />
+      <FirstScreen />
       <TopBar />
       <main>
         {isPhone.value ? (
           <Sheet tab={tab} open={editsOpen}>
-            {tab.value === 'edits' ? edits : <PartsPanel />}
+            {tab.value === 'edits' ? edits : parts}
           </Sheet>
         ) : (
           <>
             <SidePanel title="Parts" side="left" open={partsOpen}>
-              <PartsPanel />
+              {parts}
             </SidePanel>
             <SidePanel title="Edits" side="right" open={editsOpen}>
               {edits}

@@ -37,7 +37,8 @@ export function EditsPanel({ pickKind }: EditsProps) {
     <>
       {layers.length === 0 && pickKind.value === null && (
         <p class="quiet empty">
-          No edits yet. Start with a suggestion, or click a part in the view and pull its handles: the others follow.
+          No edits yet. Let sliders be suggested, say what to change, or click a part in the view and pull its handles:
+          the others follow.
         </p>
       )}
       {state.kind === 'refused' && (

@@ -6,11 +6,12 @@ import type { Shape } from '../program/types';
 import { models } from '../session/core';
 import { type EditInput, type Hint, hints, nameOf, wholePart } from '../session/document';
 import { playOnce } from '../session/play';
-import { document, propagate, select, selection, task } from '../session/session';
+import { document, propagate, select, selected, selection, task } from '../session/session';
+import { standIns } from '../session/several';
 import { Icon } from './Icon';
 import { operators, SeedFields } from './SeedFields';
 import { firstChoice, isOfGroup, isWhole, seedOf, withPart } from './seed_choice';
-import { type FeatureKind, featureKind, featureWords, hintWords, relationWords } from './words';
+import { type FeatureKind, featureKind, featureWords, hintWords, listWords, relationWords } from './words';
 
 /** Which kind of feature a click in the view selects while this panel is open; null when it is closed. */
 export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind | null>; onDone: () => void }) {
@@ -19,28 +20,39 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
   const chosen = useSignal(firstChoice);
   const chosenHints = useSignal<ReadonlyMap<string, Hint>>(new Map());
   const disabled = useSignal<ReadonlySet<string>>(new Set());
+  const aboutOne = useSignal(false);
   const { model } = document.value;
   if (model === null) return null;
   const { shape } = model;
-  // The part is what is selected, in the view or in the list.
-  const selected = shape.parts.find(({ id }) => id === selection.value?.part)?.id ?? '';
+  // The parts are what is selected, in the view or in the list.
+  const standing = standIns(
+    shape,
+    selected.value.filter((id) => shape.parts.some((part) => part.id === id)),
+  );
+  const [first = ''] = standing;
   const choice = {
-    ...withPart(shape, chosen.value, selected),
+    ...withPart(shape, chosen.value, first),
     feature: selection.value?.feature ?? wholePart,
   };
+  const parts = isOfGroup(choice.op) ? [first] : standing;
+  const hasOrigin = 'origin' in seedOf(shape, choice);
+  const seeds = parts.map((part) =>
+    seedOf(shape, hasOrigin && aboutOne.value ? { ...choice, part } : withPart(shape, choice, part)),
+  );
   const ready = isWhole(shape, choice) && models.value !== null && !task.value;
 
   const apply = async () => {
     if (models.value === null || !ready) return;
     const edit: EditInput = {
-      seed: [seedOf(shape, choice)],
+      seed: seeds,
       disabled: [...disabled.value],
       hints: Object.fromEntries(chosenHints.value),
     };
     const label = operators.find(({ id }) => id === choice.op)?.label ?? '';
     const isOfWhole = featureKind(choice.feature) === 'whole' || isOfGroup(choice.op);
     const what = isOfWhole ? '' : ` ${featureWords(choice.feature)} of`;
-    const key = await propagate(models.value, edit, `${label}${what} ${nameOf(document.peek(), choice.part)}`);
+    const names = listWords(parts.map((id) => nameOf(document.peek(), id)));
+    const key = await propagate(models.value, edit, `${label}${what} ${names}`);
     if (key === null) return;
     onDone();
     playOnce(key);
@@ -67,6 +79,27 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
           else if (next.part !== '' && next.feature !== choice.feature) select(next.part, next.feature);
         }}
       />
+      {standing.length > 1 && (
+        <div class="together">
+          <p class="quiet">
+            {isOfGroup(choice.op)
+              ? 'Only this one: rows have their number and spacing each for itself.'
+              : `The same for ${listWords(parts.slice(1).map((id) => nameOf(document.value, id)))}.`}
+          </p>
+          {hasOrigin && (
+            <label class="check">
+              <input
+                type="checkbox"
+                checked={aboutOne.value}
+                onChange={(event) => {
+                  aboutOne.value = event.currentTarget.checked;
+                }}
+              />
+              <span>all from the one point, not each from its own</span>
+            </label>
+          )}
+        </div>
+      )}
       <Hints shape={shape} except={choice.part} chosen={chosenHints} />
       {choice.part !== '' && <Disabled shape={shape} part={choice.part} disabled={disabled} />}
       <div class="row">

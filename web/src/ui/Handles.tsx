@@ -10,10 +10,11 @@ import { formatMeasure, larger, pointIn } from '../session/measure';
 import { playing } from '../session/play';
 import { beginPull, cancelPull, endPull, faceNormal, pull, pullBy, pullTo } from '../session/pull';
 import { readLayer } from '../session/reading';
-import { compiled, document, entryOf, select, selection, sliderValue, step } from '../session/session';
+import { compiled, document, entryOf, select, selected, selection, sliderValue, step } from '../session/session';
+import { standIns } from '../session/several';
 import { Icon } from './Icon';
 import { apart, shown, stage } from './view';
-import { featureKind, featureWords } from './words';
+import { featureKind, featureWords, listWords } from './words';
 
 const faces: readonly LocalTriple[] = [
   [1, 0, 0],
@@ -47,14 +48,14 @@ const isSame = (a: LocalTriple, b: LocalTriple) => a.join() === b.join();
 export function Handles() {
   const root = useRef<HTMLDivElement>(null);
   const { model, hidden } = document.value;
-  const id = selection.value?.part;
+  const [id, ...also] = model === null ? [] : standIns(model.shape, selected.value);
   const part = model?.shape.parts.findIndex((other) => other.id === id) ?? -1;
-  const selected = selection.value?.feature ?? whole;
+  const picked = selection.value?.feature ?? whole;
   const ids = model?.shape.parts[part]?.members ?? [];
   const isHidden = id !== undefined && (ids.length > 0 ? ids : [id]).every((member) => hidden.has(member));
   const rests =
     part < 0 || isHidden || apart.value > 0 || playing.value !== null || shown.value !== model?.shape || !models.value;
-  const extra = ['edge', 'corner'].includes(featureKind(selected)) ? [selected] : [];
+  const extra = ['edge', 'corner'].includes(featureKind(picked)) ? [picked] : [];
   const features = rests ? [] : [whole, ...faces, ...extra];
 
   const place = () => {
@@ -81,11 +82,9 @@ export function Handles() {
   useEffect(() => {
     const on = stage.value;
     if (!on) return;
-    on.onDraw = place;
+    on.drawn.add(place);
     place();
-    return () => {
-      on.onDraw = () => {};
-    };
+    return () => void on.drawn.delete(place);
   });
   useSignalEffect(() => {
     const held = pull.value;
@@ -107,8 +106,9 @@ export function Handles() {
           key={feature.join()}
           part={part}
           id={id ?? ''}
+          also={also}
           feature={feature}
-          isSelected={isSame(feature, selected)}
+          isSelected={isSame(feature, picked)}
         />
       ))}
     </div>
@@ -118,11 +118,13 @@ export function Handles() {
 interface HandleProps {
   readonly part: number;
   readonly id: string;
+  /** Other parts that are pulled with it. */
+  readonly also: readonly string[];
   readonly feature: LocalTriple;
   readonly isSelected: boolean;
 }
 
-function Handle({ part, id, feature, isSelected }: HandleProps) {
+function Handle({ part, id, also, feature, isSelected }: HandleProps) {
   const pressed = useRef<{ x: number; y: number; from: number; moving: boolean } | null>(null);
   const latest = useRef<Point>({ x: 0, y: 0 });
   const dragged = useRef(false); // the click that follows is not one
@@ -134,8 +136,9 @@ function Handle({ part, id, feature, isSelected }: HandleProps) {
   const begin = (axis: Axis, oneSided: boolean) => {
     const core = models.peek();
     if (core === null) return Promise.resolve(false);
-    const request = `${kind === 'whole' ? 'Move' : 'Pull'} ${what}`;
-    return beginPull(core, { part: id, feature, axis, oneSided }, request);
+    const names = listWords([id, ...also].map((one) => nameOf(document.peek(), one)));
+    const request = kind === 'whole' ? `Move ${names}` : `Pull ${featureWords(feature)} of ${names}`;
+    return beginPull(core, { part: id, also, feature, axis, oneSided }, request);
   };
   const along = ({ x, y }: Point) => {
     const direction = pull.peek()?.direction;
@@ -190,7 +193,7 @@ function Handle({ part, id, feature, isSelected }: HandleProps) {
         if (dragged.current && pull.peek()?.layer) endPull();
       }}
       onClick={() => {
-        if (!dragged.current) select(id, isSelected ? whole : feature);
+        if (!dragged.current && also.length === 0) select(id, isSelected ? whole : feature);
         dragged.current = false;
       }}
       onPointerCancel={() => {

@@ -29,6 +29,7 @@ const paths = {
   dice: 'M4 4h12v12H4zM7.500 7.500v.1M12.500 12.500v.1M10 10v.1',
   send: 'M10 16V4m0 0L5 9m5-5 5 5',
   settings: 'M3 6h8M15 6h2M3 14h2M9 14h8M13 4v4M7 12v4',
+  several: 'M3 3h9v9H3zM8 15v2h9V8h-2m-10-.500 2 2 3.500-4',
   fit: 'M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4',
 } as const;
 

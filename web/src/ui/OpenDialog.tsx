@@ -2,11 +2,12 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { models } from '../session/core';
-import { pickable, readPicked } from '../session/files';
 import { type GalleryEntry, loadGallery, loadPrograms } from '../session/gallery';
+import { modelHosts } from '../session/model_hosts';
 import { openGallery, openUrl } from '../session/open';
-import { dialog, openAny } from './actions';
+import { dialog } from './actions';
 import { Dialog } from './Dialog';
+import { DropZone, GoodModel } from './DropZone';
 import { thumbnails, thumbnailUrls } from './thumbnails';
 
 const close = () => {
@@ -30,13 +31,8 @@ export function OpenDialog() {
 
   return (
     <Dialog title="Open a model" class="open" onClose={close}>
-      <div class="row">
-        <FileButton label="Files…" ready={ready} />
-        <FileButton label="Folder…" ready={ready} folder />
-        <span class="quiet grow">
-          .glb, .gltf or .obj with its files, .3mf, .ply, .stl, .scad, .csg, .zip, .parsel.json. Or drop them anywhere.
-        </span>
-      </div>
+      <DropZone onPicked={close} />
+      <GoodModel />
       <form
         class="row"
         onSubmit={(event) => {
@@ -50,7 +46,7 @@ export function OpenDialog() {
           class="grow"
           type="text"
           inputMode="url"
-          placeholder="Address of a model on this site or this machine"
+          placeholder={`Address of a model: ${[...modelHosts, 'this site', 'this machine'].join(', ')}`}
           aria-label="Address of a model"
           value={address.value}
           onInput={(event) => {
@@ -95,30 +91,5 @@ function Gallery({ title, entries, ready }: { title: string; entries: readonly G
         ))}
       </ul>
     </>
-  );
-}
-
-function FileButton({ label, ready, folder = false }: { label: string; ready: boolean; folder?: boolean }) {
-  return (
-    <label class={`button file ${ready ? '' : 'disabled'}`}>
-      {label}
-      <input
-        type="file"
-        class="visually-hidden"
-        aria-label={folder ? 'Open a folder' : 'Open files'}
-        disabled={!ready}
-        multiple
-        ref={(input) => {
-          if (folder) input?.setAttribute('webkitdirectory', '');
-        }}
-        accept={folder ? undefined : pickable}
-        onChange={(event) => {
-          const files = [...(event.currentTarget.files ?? [])];
-          if (files.length === 0) return;
-          close();
-          void openAny(readPicked(files));
-        }}
-      />
-    </label>
   );
 }

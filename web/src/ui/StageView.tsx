@@ -3,11 +3,15 @@ import type { Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { LocalTriple, Sign, Vec3 } from '../program/types';
 import type { Insets } from '../scene/camera';
-import { document, hovered, select, selection } from '../session/session';
-import { mountStage, stage } from './view';
+import { document, hovered, select, selectAlso, selected, selection } from '../session/session';
+import { BoxSelect } from './BoxSelect';
+import { brightness, mountStage, several, stage } from './view';
 import type { FeatureKind } from './words';
 
 const dragThreshold = 5; // CSS pixels
+/** Brightness from which a model is lost on the light ground, and below which on the dark one. */
+const pale = 0.85;
+const deep = 0.25;
 
 interface StageViewProps {
   readonly insets: Insets;
@@ -33,7 +37,7 @@ export function StageView({ insets, pickKind }: StageViewProps) {
   const model = document.value.model;
   useEffect(() => {
     stage.value?.setInsets({ left, right, top, bottom });
-    stage.value?.fit(null);
+    if (stage.value?.rig.isFramed) stage.value.fit(null);
   }, [left, right, top, bottom, stage.value]);
 
   const partAt = (x: number, y: number) => {
@@ -42,37 +46,44 @@ export function StageView({ insets, pickKind }: StageViewProps) {
     return hit && id !== undefined && id !== null ? { id, local: hit.local } : null;
   };
   return (
-    <canvas
-      ref={canvas}
-      class="stage"
-      tabIndex={0}
-      role="img"
-      aria-label={model === null ? 'No model yet' : `${model.shape.name}, turn with the arrow keys`}
-      onPointerDown={(event) => {
-        pressed.current = event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
-      }}
-      onPointerUp={(event) => {
-        const start = pressed.current;
-        pressed.current = null;
-        if (start === null || Math.hypot(event.clientX - start.x, event.clientY - start.y) > dragThreshold) return;
-        const hit = partAt(event.clientX, event.clientY);
-        const kind = pickKind.peek() ?? 'whole';
-        if (hit === null) select(null);
-        else if (kind !== 'whole') select(hit.id, nearestFeature(kind, hit.local));
-        else select(selection.peek()?.part === hit.id && pickKind.peek() === null ? null : hit.id);
-      }}
-      onPointerMove={(event) => {
-        if (event.buttons !== 0 || event.pointerType === 'touch') return;
-        const { clientX, clientY } = event;
-        cancelAnimationFrame(hoverFrame.current);
-        hoverFrame.current = requestAnimationFrame(() => {
-          hovered.value = partAt(clientX, clientY)?.id ?? null;
-        });
-      }}
-      onPointerLeave={() => {
-        cancelAnimationFrame(hoverFrame.current);
-        hovered.value = null;
-      }}
-    />
+    <>
+      <canvas
+        ref={canvas}
+        class={`stage ${brightness.value > pale ? 'pale' : brightness.value < deep ? 'deep' : ''}`}
+        tabIndex={0}
+        role="img"
+        aria-label={model === null ? 'No model yet' : `${model.shape.name}, turn with the arrow keys`}
+        onPointerDown={(event) => {
+          pressed.current = event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
+        }}
+        onPointerUp={(event) => {
+          const start = pressed.current;
+          pressed.current = null;
+          if (start === null || Math.hypot(event.clientX - start.x, event.clientY - start.y) > dragThreshold) return;
+          const hit = partAt(event.clientX, event.clientY);
+          const kind = pickKind.peek() ?? 'whole';
+          const adds = event.shiftKey || event.ctrlKey || event.metaKey || several.peek();
+          if (adds && hit !== null) selectAlso(hit.id);
+          else if (adds) return;
+          else if (hit === null) select(null);
+          else if (kind !== 'whole') select(hit.id, nearestFeature(kind, hit.local));
+          else if (selected.peek().length > 1) select(hit.id);
+          else select(selection.peek()?.part === hit.id && pickKind.peek() === null ? null : hit.id);
+        }}
+        onPointerMove={(event) => {
+          if (event.buttons !== 0 || event.pointerType === 'touch') return;
+          const { clientX, clientY } = event;
+          cancelAnimationFrame(hoverFrame.current);
+          hoverFrame.current = requestAnimationFrame(() => {
+            hovered.value = partAt(clientX, clientY)?.id ?? null;
+          });
+        }}
+        onPointerLeave={() => {
+          cancelAnimationFrame(hoverFrame.current);
+          hovered.value = null;
+        }}
+      />
+      <BoxSelect canvas={canvas} />
+    </>
   );
 }

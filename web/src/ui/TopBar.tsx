@@ -1,5 +1,5 @@
 // Model, history, sharing, export, help, theme.
-import { document, redo, redoLabel, selection, undo, undoLabel } from '../session/session';
+import { document, redo, redoLabel, selected, undo, undoLabel } from '../session/session';
 import {
   dialog,
   exportModel,
@@ -23,9 +23,9 @@ function exportItems(): MenuItem[] {
   return [
     { label: 'Edited model', hint: '.glb', disabled: none, act: () => void exportModel('all') },
     {
-      label: 'Selected part only',
+      label: selected.value.length > 1 ? 'Selected parts only' : 'Selected part only',
       hint: '.glb',
-      disabled: none || selection.value === null,
+      disabled: none || selected.value.length === 0,
       act: () => void exportModel('selected'),
     },
     { label: 'Animated by the last slider', hint: '.glb', disabled: noLayer, act: () => void exportModel('animated') },
@@ -45,6 +45,7 @@ export function TopBar() {
       <h1>ParSEL</h1>
       <button type="button" class="button model" aria-haspopup="dialog" onClick={() => (dialog.value = 'open')}>
         <Icon name="open" />
+        {model !== null && <span class="quiet wide-only">Open</span>}
         <span class="model-name">{model?.shape.name ?? 'Open a model'}</span>
       </button>
       <div class="bar-middle">

@@ -9,7 +9,7 @@ import { type FileSet, hasModel, sessionOf, unpacked } from '../session/files';
 import type { ExportOptions } from '../session/model_core';
 import { oneFile, slidersOfWork } from '../session/one_file';
 import { openFiles, openSaved } from '../session/open';
-import { document, run, say, selection } from '../session/session';
+import { document, run, say, selected } from '../session/session';
 import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
 import { stage } from './view';
@@ -95,7 +95,7 @@ export async function exportModel(kind: 'all' | 'selected' | 'animated'): Promis
   const options: ExportOptions = {
     ...(absent.size > 0 ? { only: present } : {}),
     ...(kind === 'animated' ? { animate: program.layers.at(-1)?.parameter.name ?? '' } : {}),
-    ...(kind === 'selected' ? { only: [selection.peek()?.part ?? ''] } : {}),
+    ...(kind === 'selected' ? { only: [...selected.peek()] } : {}),
   };
   const exported = await run('Writing the file', () => core.apply(model, program, options));
   if (exported === null) return;

@@ -4,7 +4,7 @@ import type { Stage } from '../scene/stage';
 import { autosave } from '../session/autosave';
 import { core } from '../session/core';
 import type { Document } from '../session/document';
-import { addProgram, document, select, slide } from '../session/session';
+import { addProgram, document, select, selectAll, selected, slide } from '../session/session';
 import type { CoreClient } from '../worker/client';
 import { currentEvaluator, stage } from './view';
 
@@ -21,6 +21,9 @@ export interface DebugHandle {
   corners(): number[];
   addProgram: typeof addProgram;
   select: typeof select;
+  selectAll: typeof selectAll;
+  /** Ids of the selected parts. */
+  selected(): readonly string[];
   slide: typeof slide;
   /** Writes the work to the store now; whether it is kept. */
   flushed(): Promise<boolean>;
@@ -40,6 +43,8 @@ export function exposeForDebugging(): void {
     corners: () => [...(currentEvaluator()?.corners ?? [])],
     addProgram,
     select,
+    selectAll,
+    selected: () => selected.value,
     slide,
     flushed: autosave.saveNow,
   };

@@ -1,7 +1,8 @@
 // Keys of the whole page, after Blender's where it has them. Fields keep their own keys.
 import { playing, playOn, stop } from '../session/play';
 import { cancelPull, pull } from '../session/pull';
-import { document, redo, select, selection, setHidden, showAll, undo } from '../session/session';
+import { document, isolate, redo, select, selectAll, selected, setHidden, showAll, undo } from '../session/session';
+import { realParts } from '../session/several';
 import { dialog, saveSession } from './actions';
 import { focusView, stage, toggleApart } from './view';
 
@@ -24,13 +25,19 @@ function onCommand(event: KeyboardEvent): boolean {
     case 's':
       if (document.peek().model) saveSession();
       return true;
+    case 'a': {
+      const parts = document.peek().model?.shape.parts ?? [];
+      const inner = new Set(parts.flatMap(({ members }) => members));
+      selectAll(parts.filter(({ id }) => !inner.has(id)).map(({ id }) => id));
+      return true;
+    }
     default:
       return false;
   }
 }
 
 function onPlain(event: KeyboardEvent): boolean {
-  const part = selection.peek()?.part;
+  const ids = selected.peek();
   const shape = document.peek().model?.shape;
   switch (event.key) {
     case 'f':
@@ -41,19 +48,23 @@ function onPlain(event: KeyboardEvent): boolean {
       stage.peek()?.rig.look('front', true);
       return true;
     case '3':
-      stage.peek()?.rig.look('right', true);
+      stage.peek()?.rig.look('left', true);
       return true;
     case '7':
       stage.peek()?.rig.look('top', true);
       return true;
     case 'h':
     case 'H': {
-      if (part === undefined) return false;
-      const members = shape?.parts.find(({ id }) => id === part)?.members ?? [];
-      setHidden(members.length > 0 ? members : [part], true);
+      if (shape === undefined || ids.length === 0) return false;
+      setHidden(realParts(shape, ids), true);
       select(null);
       return true;
     }
+    case 'i':
+    case 'I':
+      if (ids.length === 0) return false;
+      isolate(ids);
+      return true;
     case 'e':
     case 'E':
       toggleApart();

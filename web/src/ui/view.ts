@@ -2,13 +2,16 @@
 import { effect, signal, untracked } from '@preact/signals';
 import type { Evaluator } from '../program/compile';
 import type { Shape } from '../program/types';
+import { brightnessOf } from '../scene/brightness';
 import type { LoadedModel, ModelFiles } from '../scene/load';
 import type { Tint } from '../scene/model_view';
 import { noTint } from '../scene/model_view';
 import { type Actor, Stage } from '../scene/stage';
 import { openedView, takeLoaded } from '../session/open';
 import { prefersReducedMotion } from '../session/play';
-import { compiled, document, hovered, pointedAt, say, selection, step } from '../session/session';
+import { pull } from '../session/pull';
+import { compiled, document, hovered, pointedAt, say, selected, selection, step } from '../session/session';
+import { realParts } from '../session/several';
 import { theme } from './theme';
 
 export const stage = signal<Stage | null>(null);
@@ -39,6 +42,10 @@ export function toggleApart(): void {
   apartFrame = requestAnimationFrame(next);
 }
 let apartFrame = 0;
+/** Whether clicks add to the selection. */
+export const several = signal(false);
+/** Of the model that is shown, 0 black … 1 white. */
+export const brightness = signal(0.5);
 export const showColours = signal(false);
 let actor: Actor | null = null;
 
@@ -61,6 +68,8 @@ export function mountStage(canvas: HTMLCanvasElement): () => void {
       shown.value;
       const evaluator = untracked(currentEvaluator);
       if (evaluator) created.update(evaluator);
+      // A hand that pulls must not have the view move below it; once it lets go, it may.
+      if (pull.value === null && shownFiles !== null) created.keepInView();
     }),
     effect(() => {
       const { hidden, model } = document.value;
@@ -90,6 +99,7 @@ async function showModel(on: Stage): Promise<void> {
     return say(`The model cannot be drawn: ${error instanceof Error ? error.message : String(error)}.`, 'error');
   }
   if (document.peek().model !== model || stage.peek() !== on) return loaded.dispose();
+  brightness.value = brightnessOf(loaded);
   actor = on.show(loaded, model.shape);
   const isAnother = shownFiles !== model.files;
   shownFiles = model.files;
@@ -121,13 +131,13 @@ function light(on: Stage): void {
   const soft = tint(accentRgb, 0.16);
   const dimmed = tint(groundRgb, 0.45);
 
-  const selected = expand(selection.value?.part ?? null);
+  const chosen = new Set(realParts(model.shape, selected.value));
   const over = expand(hovered.value);
   const pointed = new Set((pointedAt.value?.parts ?? []).flatMap((id) => [...expand(id)]));
   const colours = showColours.value;
   for (const [i, { id }] of model.shape.parts.entries()) {
     const own = colours ? tint(partColour(i), 0.75) : noTint;
-    const focus = pointed.size > 0 ? pointed : selected;
+    const focus = pointed.size > 0 ? pointed : chosen;
     const isLit = focus.has(id);
     actor.view.setTint(i, isLit ? lit : over.has(id) ? soft : focus.size > 0 && !colours ? dimmed : own);
   }

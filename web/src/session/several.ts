@@ -1,0 +1,47 @@
+// Several parts at once: which parts are like one another, and which parts stand for a selection in an edit.
+import { isGroup, isReflection, type Shape } from '../program/types';
+
+/** Real parts among some, and the instances of virtual ones; in the shape's order. */
+export function realParts(shape: Shape, ids: Iterable<string>): string[] {
+  const wanted = new Set(ids);
+  for (const { id, members } of shape.parts) if (wanted.has(id)) for (const member of members) wanted.add(member);
+  return shape.parts.filter(({ id, virtual }) => !virtual && wanted.has(id)).map(({ id }) => id);
+}
+
+/**
+ * Parts that are what this one is, itself among them: those of its label, its mirror images, the instances of its row or
+ * ring, and all that are so of these. Real parts, in the shape's order.
+ */
+export function alike(shape: Shape, part: string): string[] {
+  const real = new Map(shape.parts.map(({ id, virtual, members }) => [id, virtual ? members : [id]] as const));
+  /** Parts that are alike: of one label, of one relation. */
+  const kinds = new Map<unknown, readonly string[]>();
+  for (const { id, label, virtual } of shape.parts) if (!virtual) kinds.set(label, [...(kinds.get(label) ?? []), id]);
+  for (const relation of shape.relations)
+    if (isReflection(relation) || isGroup(relation))
+      kinds.set(
+        relation,
+        relation.parts.flatMap((id) => real.get(id) ?? []),
+      );
+  const kindsOf = new Map<string, unknown[]>();
+  for (const [kind, ids] of kinds) for (const id of ids) kindsOf.set(id, [...(kindsOf.get(id) ?? []), kind]);
+
+  const found = new Set(real.get(part) ?? []);
+  const seen = new Set<unknown>();
+  for (const id of found) {
+    for (const kind of kindsOf.get(id) ?? []) {
+      if (seen.has(kind)) continue;
+      seen.add(kind);
+      for (const other of kinds.get(kind) ?? []) found.add(other); // which this loop comes to as well
+    }
+  }
+  return realParts(shape, found);
+}
+
+/** The parts of a selection as an edit names them, in its order: a row or ring that is selected whole is one part. */
+export function standIns(shape: Shape, ids: readonly string[]): string[] {
+  const real = new Set(realParts(shape, ids));
+  const groups = shape.parts.filter(({ members }) => members.length > 0 && members.every((id) => real.has(id)));
+  const groupOf = new Map(groups.flatMap(({ id, members }) => members.map((member) => [member, id] as const)));
+  return [...new Set(ids.map((id) => groupOf.get(id) ?? id))];
+}

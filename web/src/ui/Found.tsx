@@ -1,0 +1,31 @@
+// What was found in the model, in one line, with a way to what is loose.
+import type { Shape } from '../program/types';
+import { inventoryOf, inventoryWords } from '../session/inventory';
+import { selectAll } from '../session/session';
+import { focusView } from './view';
+
+export function Found({ shape }: { shape: Shape }) {
+  const found = inventoryOf(shape);
+  const { loose } = found;
+  return (
+    <div class="found">
+      <p class="quiet">
+        {inventoryWords(found)}
+        {found.parts === 1 && '. Only parts that are meshes of their own can move against each other.'}
+      </p>
+      {loose.length > 0 && (
+        <button
+          type="button"
+          class="chip-button"
+          title="They touch nothing, so that they stay behind when other parts move. A click selects them."
+          onClick={() => {
+            selectAll(loose);
+            focusView();
+          }}
+        >
+          {loose.length === 1 ? '1 part hangs loose' : `${loose.length} parts hang loose`}
+        </button>
+      )}
+    </div>
+  );
+}
