@@ -37,7 +37,7 @@ const rooms = {
     rule: 'llm asks language models; what prompts and replies mean is the business of the core and the session',
   },
   share: {
-    may: ['program', 'scene/camera', 'session/document'],
+    may: ['program', 'scene/camera', 'session/document', 'session/family_state'],
     packages: ['valibot'],
     rule: 'share writes and reads saved work; of the session it knows the type of the work alone',
   },

@@ -16,6 +16,7 @@ if ! has chromium && ! has google-chrome; then
   fi
   need "chromium chromium"
 fi
+need "openscad openscad"
 "$root/web/start.sh" --build-only
 need_node
 

@@ -22,6 +22,7 @@
 #include "core/prove/together.h"
 #include "core/shape/abstraction.h"
 #include "core/split/split.h"
+#include "wasm/cad_methods.h"
 
 namespace parsel::wasm {
 
@@ -397,6 +398,10 @@ constexpr std::array all_methods = {
     Method{"prompts", prompts},
     Method{"proposal_prompt", proposal_prompt},
     Method{"read_replies", read_replies},
+    Method{"open_cad", open_cad},
+    Method{"find_family", find_family},
+    Method{"family_text", family_text},
+    Method{"cad_gallery", cad_gallery},
     Method{"memory", memory},
     Method{"fail", fail},
 };

@@ -53,7 +53,7 @@ const offline = VitePWA({
     ],
   },
   workbox: {
-    globPatterns: ['**/*.{html,js,css,wasm,svg,png,json,glb,txt}'],
+    globPatterns: ['**/*.{html,js,css,wasm,svg,png,json,glb,scad,txt}'],
     maximumFileSizeToCacheInBytes: 16 * 2 ** 20,
     ignoreURLParametersMatching: [/./], // ?embed and ?debug are the same page
     navigateFallback: null, // one page, and other addresses are none of it

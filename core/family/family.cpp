@@ -1,6 +1,7 @@
 #include "core/family/family.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/base/text.h"
@@ -70,6 +71,15 @@ void warn(Family& family) {
 
 cad::Model Family::at(const Eigen::VectorXd& setting) const {
   return with_values(layout, model, basis.values(setting, pinned));
+}
+
+Interval reach(const Family& family, std::size_t slider) {
+  const Slider& own = family.sliders[slider];
+  const bool is_changed = own.max - own.min > family.tolerance;
+  const double beyond = (is_changed ? own.max - own.min : std::max(std::abs(own.value), family.tolerance * 1e3)) / 4;
+  const Interval stops = interval(family.bounds, family.base_setting, slider);
+  return {std::min(own.min, std::max(own.min - beyond, stops.low)),
+          std::max(own.max, std::min(own.max + beyond, stops.high)), stops.low_stop, stops.high_stop};
 }
 
 Result<Family> make_family(const cad::Model& model, std::vector<Variation> variations, const Options& options) {

@@ -73,6 +73,10 @@ Result<Family> make_family(const cad::Model& model, std::vector<Variation> varia
 /// [{"parts","absent_from"}],"variations":[{"name","setting","absent"}],"warnings"}
 nlohmann::json to_json(const Family& family);
 
+/// Where a slider may go: the hull, and beyond it on either side a quarter of it (where no variation changes it: of its
+/// value), as far as nothing stops it while the others are as in the base. Within the hull the others may stop it.
+Interval reach(const Family& family, std::size_t slider);
+
 /// What stops a slider, in words: "the seat meets the back", "the leg's height ends".
 std::string stop_text(const Family& family, const Stop& stop);
 

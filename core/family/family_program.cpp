@@ -131,8 +131,9 @@ Result<Program> family_program(const Family& family, const std::string& shape_na
     const Slider& slider = family.sliders[k];
     Layer layer;
     layer.request = slider.name;
-    layer.parameter = {"x" + std::to_string(k + 1), (slider.min - slider.value) / scale,
-                       (slider.max - slider.value) / scale, 0};
+    const Interval range = reach(family, k);
+    layer.parameter = {"x" + std::to_string(k + 1), (range.low - slider.value) / scale,
+                       (range.high - slider.value) / scale, 0};
     layer.statements = compiler.statements(k, layer.parameter.name);
     count += layer.statements.size();
     program.layers.push_back(std::move(layer));

@@ -9,7 +9,7 @@
 
 namespace parsel::family {
 
-/// Layer k has parameter x<k+1> in normalised lengths, its value 0 the base, its range the slider's hull. Parts are named
+/// Layer k has parameter x<k+1> in normalised lengths, its value 0 the base, its range reach(). Parts are named
 /// "node:<n>", as cad::to_glb() numbers them; `shape` is the name and hash of the shape that comes of that file. Layers
 /// commute. A share of a cone's top (paper's vocabulary) is not linear: its layer is empty. A round cone's top that is a
 /// length moves the four edges at its end, both directions alike. Refuses programs beyond ProgramLimits.

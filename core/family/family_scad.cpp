@@ -61,17 +61,17 @@ double step_of(double range) {
   return cad::tidy(10 * power);
 }
 
-std::string declaration(const Family& family, std::size_t k) {
+std::string declaration(const Family& family, std::size_t k, double value) {
   const Slider& slider = family.sliders[k];
   double low = slider.min, high = slider.max;
-  if (!(high - low > family.tolerance)) {
-    // No variation changes it: a quarter more or less, within the stops.
-    const Interval stops = interval(family.bounds, family.base_setting, k);
-    const double size = std::max(std::abs(slider.value), family.tolerance * 1e3) / 4;
-    low = std::max(low - size, stops.low);
-    high = std::min(high + size, stops.high);
+  if (!(high - low > family.tolerance)) {  // no variation changes it
+    const Interval range = reach(family, k);
+    low = range.low;
+    high = range.high;
   }
-  std::string text = slider.variable + " = " + cad::decimal(cad::tidy(slider.value)) + ";";
+  low = std::min(low, value);
+  high = std::max(high, value);
+  std::string text = slider.variable + " = " + cad::decimal(cad::tidy(value)) + ";";
   if (high - low > family.tolerance) {
     text += " // [" + cad::decimal(cad::tidy(low)) + " : " + cad::decimal(step_of(high - low)) + " : " +
             cad::decimal(cad::tidy(high)) + "]";
@@ -89,7 +89,13 @@ std::string group_variable(const Family& family, const OptionalGroup& group) {
   return "with_" + variable_name(is_alike && group.parts.size() > 1 ? cad::stem(first) : first.id);
 }
 
-std::string family_scad(const Family& family) {
+Shown at_base(const Family& family) {
+  return {family.base_setting, std::vector<bool>(family.optional.size(), true)};
+}
+
+std::string family_scad(const Family& family, const Shown& shown) {
+  PARSEL_ASSERT(shown.setting.size() == family.base_setting.size() && shown.with.size() == family.optional.size(),
+                "a value a slider, and a choice an optional group");
   std::string out;
   std::vector<std::string> sections;
   for (const Slider& slider : family.sliders) {
@@ -97,18 +103,21 @@ std::string family_scad(const Family& family) {
       sections.push_back(slider.section);
   }
   for (const std::string& section : sections) {
-    std::string shown = section;
+    std::string title = section;
     std::replace_if(
-        shown.begin(), shown.end(), [](char c) { return c == ']' || c == '*' || c == '/'; }, ' ');
-    out += "/* [" + shown + "] */\n";
+        title.begin(), title.end(), [](char c) { return c == ']' || c == '*' || c == '/'; }, ' ');
+    out += "/* [" + title + "] */\n";
     for (std::size_t k = 0; k < family.sliders.size(); ++k) {
-      if (family.sliders[k].section == section) out += declaration(family, k);
+      if (family.sliders[k].section == section)
+        out += declaration(family, k, shown.setting[static_cast<Eigen::Index>(k)]);
     }
     out += "\n";
   }
   if (!family.optional.empty()) {
     out += "/* [Parts] */\n";
-    for (const OptionalGroup& group : family.optional) out += group_variable(family, group) + " = true;\n";
+    for (std::size_t g = 0; g < family.optional.size(); ++g) {
+      out += group_variable(family, family.optional[g]) + (shown.with[g] ? " = true;\n" : " = false;\n");
+    }
     out += "\n";
   }
   out += "/* [Hidden] */\n$fn = 128;\n\n";

@@ -29,6 +29,7 @@ const types: Record<string, string> = {
   '.svg': 'image/svg+xml',
   '.wasm': 'application/wasm',
   '.json': 'application/json',
+  '.scad': 'text/plain',
   '.glb': 'model/gltf-binary',
   '.png': 'image/png',
   '.webmanifest': 'application/manifest+json',
@@ -83,7 +84,7 @@ export function useProviders(): Omit<ProviderServer, 'server'> {
 
 /** What a page that was built without a gallery, and a test's own gallery models, have in its place. */
 function emptyAnswer(path: string): string | null {
-  if (path === 'gallery/gallery.json') return '[]';
+  if (path === 'gallery/gallery.json' || path === 'gallery/programs.json') return '[]';
   return /^recordings\/[^/]+\.json$/.test(path) ? '{"requests":[],"replies":{},"models":[]}' : null;
 }
 

@@ -116,6 +116,9 @@ export function fakeCore(): FakeCore {
     compose: async (_, program) => program,
     judge: async () => ({ of: 0, lost: [], settings: 0, failed: 0, failure: '', stops: [] }),
     siblings: async () => ({ siblings: [], rejected: 0, reasons: [] }),
+    readCad: () => Promise.reject(new Error('not here')),
+    findFamily: () => Promise.reject(new Error('not here')),
+    familyText: () => Promise.reject(new Error('not here')),
     readPlainly: async () => core.plain,
     readReplies: async () => core.inference,
   };

@@ -9,3 +9,15 @@ const { result, buffers } = core('gallery', {});
 mkdirSync(folder, { recursive: true });
 for (const [index, { file }] of result.models.entries()) writeFileSync(join(folder, file), buffers[index]);
 writeFileSync(join(folder, 'gallery.json'), JSON.stringify(result.models));
+
+// The CAD programs, each with its variations and what it makes: the thumbnails are drawn from that.
+const { result: cad, buffers: texts } = core('cad_gallery', {});
+const programs = cad.programs.map(({ id }, index) => {
+  const name = `${id}_program`;
+  const [scad, variations] = texts.slice(2 * index, 2 * index + 2);
+  writeFileSync(join(folder, `${name}.scad`), scad);
+  writeFileSync(join(folder, `${name}.variations.json`), variations);
+  writeFileSync(join(folder, `${name}.glb`), core('open_cad', { name: id }, [scad]).buffers[0]);
+  return { id: name, title: id[0].toUpperCase() + id.slice(1) };
+});
+writeFileSync(join(folder, 'programs.json'), JSON.stringify(programs));

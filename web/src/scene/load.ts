@@ -20,6 +20,28 @@ export interface ModelFiles {
   readonly split?: { readonly from: ModelFiles; readonly by: SplitBy; readonly fine: number };
   /** When the file was of another format: of which ("STL"), and what of it was left out or missing, in sentences. */
   readonly converted?: { readonly format: string; readonly remarks: readonly string[] };
+  /** When the file is what a CAD program makes: the program, as plain data. */
+  readonly cad?: CadSource;
+}
+
+/** A CAD program that a model was made by, as the core read it. */
+export interface CadSource {
+  /** `parsel/cad` v1. */
+  readonly program: unknown;
+  /** `parsel/variations` v1 that came with it; null: none. */
+  readonly variations: unknown;
+  readonly parts: readonly CadPart[];
+  /** What was not read as it was meant, in sentences. */
+  readonly remarks: readonly string[];
+}
+
+export interface CadPart {
+  readonly id: string;
+  readonly name: string;
+  /** Shared by parts that belong together: "leg". */
+  readonly stem: string;
+  /** Whether it adds material; of these part i is node i of the file. */
+  readonly role: 'add' | 'cut' | 'meet';
 }
 
 /** Rejects with an Error whose message is one sentence for people. */

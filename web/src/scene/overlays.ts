@@ -3,6 +3,7 @@
 import * as three from 'three';
 import { type CageShape, isAttachment, isReflection, type LocalTriple, type Vec3 } from '../program/types';
 import { localFrame, trilinear } from './cage';
+import { type FaceMark, FaceOverlay } from './face_overlay';
 
 const maxPoints = 256;
 
@@ -12,6 +13,8 @@ export interface Highlight {
   readonly feature: LocalTriple;
   /** Relation indices whose points, planes and axes are drawn. */
   readonly relations: readonly number[];
+  /** Faces that are drawn besides. */
+  readonly faces?: readonly FaceMark[];
 }
 
 export interface OverlayColours {
@@ -31,6 +34,7 @@ export class Overlays {
   readonly #featureLine: three.Line;
   readonly #guide: three.Line;
   readonly #points: three.Points;
+  readonly #faces = new FaceOverlay();
   readonly #planes: three.Mesh[] = [];
   readonly #planeMaterial: three.MeshBasicMaterial;
   #highlight: Highlight = { part: -1, feature: [0, 0, 0], relations: [] };
@@ -62,6 +66,7 @@ export class Overlays {
       object.renderOrder = 10;
       this.root.add(object);
     }
+    this.root.add(this.#faces.mesh);
     const index = new Map(shape.parts.map((part, i) => [part.id, i]));
     for (const [i, relation] of shape.relations.entries()) {
       if (!isAttachment(relation)) continue;
@@ -76,7 +81,7 @@ export class Overlays {
   }
 
   setColours({ accent, quiet }: OverlayColours): void {
-    for (const object of [this.#feature, this.#featureLine, this.#guide, this.#points, this.#box]) {
+    for (const object of [this.#feature, this.#featureLine, this.#guide, this.#points, this.#box, this.#faces.mesh]) {
       (object.material as three.LineBasicMaterial).color.set(accent);
     }
     this.#planeMaterial.color.set(quiet);
@@ -134,6 +139,7 @@ export class Overlays {
     positions.needsUpdate = true;
     this.#points.geometry.setDrawRange(0, points);
     this.#points.visible = points > 0;
+    this.#faces.update(this.#highlight.faces ?? [], corners);
   }
 
   dispose(): void {

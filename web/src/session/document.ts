@@ -2,6 +2,7 @@
 import { byThemselves } from '../program/rest';
 import type { Layer, LocalTriple, Program, Shape, Statement } from '../program/types';
 import type { ModelFiles } from '../scene/load';
+import type { FamilyState } from './family_state';
 import type { Trace } from './trace';
 
 /** Where a model came from: what a link can name. */
@@ -72,6 +73,8 @@ export interface Document {
   /** Unit of all lengths; absent: whichever suits each. */
   readonly unit?: LengthUnit;
   readonly presets?: readonly Preset[];
+  /** Of a CAD program: its family, whose sliders are layers like any others. */
+  readonly family?: FamilyState;
 }
 
 export const emptyDocument: Document = { model: null, layers: [], hidden: new Set(), names: new Map() };

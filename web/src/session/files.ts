@@ -8,6 +8,9 @@ import { mayFetchFrom, modelHosts } from './model_hosts';
 /** Running limits on what is read, against archives that are bombs. */
 export const fileLimits = { bytes: 512 * 2 ** 20, entries: 10_000 } as const;
 
+/** OpenSCAD's programs, and what it writes of one when it has run it. */
+const cadKinds: readonly string[] = ['scad', 'csg'];
+
 /** Files by path. */
 export type FileSet = ReadonlyMap<string, Uint8Array>;
 
@@ -15,6 +18,8 @@ export type FileSet = ReadonlyMap<string, Uint8Array>;
 export interface FoundFiles extends ModelFiles {
   /** Of a main file that has to become a GLB first, with its path among the files. */
   readonly format?: { readonly kind: Format; readonly path: string };
+  /** Of a main file that is an OpenSCAD text: the variations that lie beside it, `parsel/variations` v1, if any. */
+  readonly program?: { readonly variations: Uint8Array | null };
 }
 
 /** Refused, in one sentence for people. */
@@ -118,7 +123,7 @@ export function sessionOf(files: FileSet): Uint8Array | null {
 }
 
 /** glTF first: where a folder holds both, it says more. */
-const kinds: readonly string[] = ['glb', 'gltf', ...formats];
+const kinds: readonly string[] = ['glb', 'gltf', ...formats, ...cadKinds];
 const rank = (path: string) => Math.max(kinds.indexOf(extension(path)), 1);
 const formatOf = (path: string): Format | undefined => formats.find((format) => format === extension(path));
 
@@ -143,6 +148,10 @@ export async function modelOf(picked: FileSet): Promise<FoundFiles> {
   const main = path === undefined ? undefined : files.get(path);
   if (path === undefined || main === undefined) throw new FileError(unreadable([...files.keys()]));
   const name = baseName(path);
+  if (cadKinds.includes(extension(path))) {
+    const beside = [...files].find(([other]) => other.endsWith('.variations.json'));
+    return { name: plain(name), main, external: new Map(), program: { variations: beside?.[1] ?? null } };
+  }
   const kind = formatOf(path);
   if (kind !== undefined) {
     const beside = [...files].filter(([other]) => kind === 'obj' && companions.includes(extension(other)));
@@ -158,7 +167,7 @@ const plain = (name: string) => name.replace(/\.[^.]+$/, '');
 function unreadable(paths: readonly string[]): string {
   const kinds = [...new Set(paths.map(extension).filter(Boolean))].slice(0, 3).map((kind) => `.${kind}`);
   const what = kinds.length > 0 ? `${kinds.join(', ')} cannot be opened here.` : 'There is no model in it.';
-  return `${what} Open a .glb, a .gltf with its files, an .obj, .3mf, .ply or .stl, or a folder or zip that holds one.`;
+  return `${what} Open a .glb, a .gltf with its files, an .obj, .3mf, .ply, .stl, .scad or .csg, or a folder or zip that holds one.`;
 }
 
 /** The JSON of a .gltf or of a .glb's first chunk; null when it is neither. */

@@ -44,4 +44,21 @@ export function loadGallery(): Promise<readonly GalleryEntry[]> {
   return loading;
 }
 
+const programsSchema = v.array(v.strictObject({ id: v.pipe(v.string(), v.regex(/^\w+_program$/)), title: v.string() }));
+
+/** The CAD programs that come with the page: gallery/programs.json. Empty when it came without. */
+export async function loadPrograms(): Promise<v.InferOutput<typeof programsSchema>> {
+  try {
+    const response = await fetch('./gallery/programs.json');
+    return response.ok ? v.parse(programsSchema, await response.json()) : [];
+  } catch {
+    return [];
+  }
+}
+
+/** What of the gallery is a CAD program: its text, and what it is opened together with. */
+export const programUrls = (id: string): readonly string[] | null =>
+  id.endsWith('_program') ? [`./gallery/${id}.scad`, `./gallery/${id}.variations.json`] : null;
+
+/** Of a model; of a program, what it makes. */
 export const galleryUrl = (id: string): string => `./gallery/${id}.glb`;

@@ -69,6 +69,19 @@ export interface ModelCore {
     seed: number,
     options: Options,
   ): Promise<MethodResult<'siblings'>>;
+  /** An OpenSCAD text as parts, and the GLB that they make. */
+  readCad(
+    name: string,
+    text: Uint8Array,
+    options: Options,
+  ): Promise<{ read: MethodResult<'open_cad'>; glb: Uint8Array }>;
+  /** What the variations of a CAD program share; and a GLB of each. */
+  findFamily(
+    about: Parameters<'find_family'>,
+    options: Options,
+  ): Promise<{ found: MethodResult<'find_family'>; pictures: readonly Uint8Array[] }>;
+  /** A family as an OpenSCAD program. */
+  familyText(about: Parameters<'family_text'>): Promise<MethodResult<'family_text'>>;
   /** What its replies mean. */
   readReplies(model: OpenModel, request: string, replies: Replies[]): Promise<Inference>;
 }
@@ -154,6 +167,19 @@ export function modelCore(client: CoreClient): ModelCore {
     async siblings(model, program, count, seed, options) {
       const needs = stateOf(model);
       return (await client.call('siblings', { program, count, seed }, { ...options, needs })).result;
+    },
+    async readCad(name, text, options) {
+      const { result, buffers } = await client.call('open_cad', { name }, { ...options, buffers: [text] });
+      const [glb] = buffers;
+      if (glb === undefined) throw new Error('The core gave no file.');
+      return { read: result, glb };
+    },
+    async findFamily(about, options) {
+      const { result, buffers } = await client.call('find_family', about, options);
+      return { found: result, pictures: buffers };
+    },
+    async familyText(about) {
+      return (await client.call('family_text', about)).result;
     },
     async readReplies(model, request, replies) {
       return (await client.call('read_replies', { request, replies }, { needs: stateOf(model) })).result;

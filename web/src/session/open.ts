@@ -15,8 +15,10 @@ import {
   type OpenModel,
 } from './document';
 import { misfit } from './evaluation';
+import { familyOf, withProgramRead } from './family';
+import { type FamilySource, withFamily } from './family_state';
 import { addressOf, type FileSet, type FoundFiles, modelOf, readUrl } from './files';
-import { galleryUrl } from './gallery';
+import { galleryUrl, programUrls } from './gallery';
 import type { ModelCore } from './model_core';
 import { takeSliders } from './one_file';
 import { carryOver } from './relabel';
@@ -57,6 +59,8 @@ export const openedView = signal<Saved['view'] | null>(null);
 interface Opened {
   readonly model: OpenModel;
   readonly work: Work | null;
+  /** Of a CAD program. */
+  readonly family: FamilySource | null;
   /** A sentence on sliders in the file that are left out. */
   readonly refused: string | null;
 }
@@ -69,7 +73,8 @@ async function abstract(
   given: Work | null,
 ): Promise<Opened | null> {
   return run('Reading the model', async (options) => {
-    const taken = takeSliders(await converted(await get(options.signal), options));
+    const picked = await withProgramRead(core, await get(options.signal), options);
+    const taken = takeSliders(await converted(picked, options));
     const found = given === null ? taken.found : null;
     const files = await splitAs(given?.saved.split, await decompressed(taken.files, options), core, options);
     let labels = labelsOf(given ?? found?.work ?? null);
@@ -79,19 +84,22 @@ async function abstract(
       labels = noLabels;
       shape = await core.open(files, options, labels);
     }
+    const family = await familyOf(core, files, given?.saved.family, options);
     await prepare(files);
     options.signal.throwIfAborted();
     const model = { files, source, shape, labels };
-    if (given !== null) return { model, work: given, refused: null };
-    return { model, work: misfits === null ? (found?.work ?? null) : null, refused: misfits ?? taken.refused };
+    if (given !== null) return { model, work: given, family, refused: null };
+    const own = misfits === null ? (found?.work ?? null) : null;
+    return { model, work: own, family, refused: misfits ?? taken.refused };
   });
 }
 
 const labelsOf = (work: Work | null): Labels =>
   work?.saved.labels === undefined ? noLabels : new Map(work.saved.labels);
 
-function show(model: OpenModel, work: Work | null): boolean {
-  const next = work === null ? { ...emptyDocument, model } : documentOf(model, work.saved);
+function show(model: OpenModel, work: Work | null, family: FamilySource | null): boolean {
+  const bare = work === null ? { ...emptyDocument, model } : documentOf(model, work.saved);
+  const next = withFamily(bare, family, work?.saved.family?.sliders ?? 0, newEntry);
   openedView.value = work?.saved.view ?? null;
   offered.value = null;
   replaceDocument(next, `open ${model.shape.name}`);
@@ -107,6 +115,7 @@ function remarksOn({ files, shape }: OpenModel): string {
     remarks.push(`The file was made a GLB; what you export will be one, no ${files.converted.format}.`);
     remarks.push(...files.converted.remarks);
   }
+  remarks.push(...(files.cad?.remarks ?? []));
   if (files.decompressed) {
     const { compression, lost } = files.decompressed;
     remarks.push(`The file came compressed with ${compression}; what you export will not be.`);
@@ -141,12 +150,12 @@ async function openFrom(
 ): Promise<boolean> {
   const opened = await abstract(core, get, source, work);
   if (opened === null) return false;
-  const { model, refused } = opened;
+  const { model, family, refused } = opened;
   if (work !== null && work.saved.model.sha256 !== model.shape.sha256) {
     say(`${model.shape.name} is not the file that this work was made on (${work.saved.model.name}).`, 'error');
     return false;
   }
-  show(model, opened.work);
+  show(model, opened.work, family);
   if (refused !== null) say(refused, 'error');
   return true;
 }
@@ -159,12 +168,12 @@ export async function openFiles(core: ModelCore, files: FileSet): Promise<boolea
 }
 
 export function openGallery(core: ModelCore, id: string, work: Work | null = null): Promise<boolean> {
-  return openFrom(
-    core,
-    async (signal) => modelOf(await readUrl(galleryUrl(id), signal)),
-    { kind: 'gallery', id },
-    work,
-  );
+  const get = async (signal: AbortSignal) => {
+    const urls = programUrls(id) ?? [galleryUrl(id)];
+    const read = await Promise.all(urls.map((url) => readUrl(url, signal)));
+    return modelOf(new Map(read.flatMap((files) => [...files])));
+  };
+  return openFrom(core, get, { kind: 'gallery', id }, work);
 }
 
 /** Sends a GET to the address: only where a person has typed it or has said so. */
@@ -236,7 +245,8 @@ export async function openSaved(core: ModelCore, work: Work, files: FileSet | nu
   const { gallery, sha256 } = saved.model;
   if (files !== null) return openFrom(core, () => modelOf(files), { kind: 'file' }, work);
   const { model } = document.peek();
-  if (model?.shape.sha256 === sha256 && saved.labels === undefined && model.labels.size === 0) return show(model, work);
+  const isAsItWas = saved.labels === undefined && model?.labels.size === 0 && model.files.cad === undefined;
+  if (model?.shape.sha256 === sha256 && isAsItWas) return show(model, work, null);
   if (model?.shape.sha256 === sha256) return reopen(core, model.files, model.source, work);
   if (gallery !== undefined) return openGallery(core, gallery, work);
   awaited.value = work;

@@ -12,14 +12,21 @@ export interface Selection {
   readonly feature: LocalTriple;
 }
 
+/** Parts, relations, and faces of parts. */
+export interface PointedAt {
+  readonly parts: readonly string[];
+  readonly relations: readonly string[];
+  readonly faces?: readonly Selection[];
+}
+
 export interface Parts {
   /** The part that was selected first, with its feature. */
   readonly selection: Signal<Selection | null>;
   /** Ids of all parts that are selected, that one first. */
   readonly selected: ReadonlySignal<readonly string[]>;
   readonly hovered: Signal<string | null>;
-  /** Parts and relations to light up while the pointer or the focus is on a statement or a relation. */
-  readonly pointedAt: Signal<{ parts: readonly string[]; relations: readonly string[] } | null>;
+  /** What lights up while the pointer or the focus is on a line that is about it. */
+  readonly pointedAt: Signal<PointedAt | null>;
   /** Selects one part alone, or none. */
   select(part: string | null, feature?: LocalTriple): void;
   /** Selects some parts. */

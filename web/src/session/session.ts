@@ -3,6 +3,7 @@
 import { batch, computed, type ReadonlySignal } from '@preact/signals';
 import { type Document, type EditInput, emptyDocument, withRequest } from './document';
 import { createEvaluation, type Evaluation } from './evaluation';
+import { createFamily, type FamilyActions } from './family';
 import { History, type Mark } from './history';
 import { createLayers, type Layers } from './layers';
 import type { ModelCore, Propagation } from './model_core';
@@ -11,6 +12,7 @@ import { createStack, type Stack } from './stack';
 import { createTasks, type Tasks } from './tasks';
 
 export interface Session extends Evaluation, Layers, Parts, Stack, Tasks {
+  readonly family: FamilyActions;
   readonly document: ReadonlySignal<Document>;
   readonly undoLabel: ReadonlySignal<string | null>;
   readonly redoLabel: ReadonlySignal<string | null>;
@@ -38,6 +40,7 @@ export function createSession(): Session {
   const evaluation = createEvaluation(document);
   const layers = createLayers(history, evaluation, tasks.say);
   const parts = createParts(history);
+  const family = createFamily(history, evaluation, layers, tasks);
 
   const stack = createStack(history);
   const restack = (key: number) => void stack.restack(key);
@@ -58,6 +61,7 @@ export function createSession(): Session {
     ...evaluation,
     ...layers,
     ...parts,
+    family,
     ...stack,
     amendLayer(mark, key, found) {
       const amended = layers.amendLayer(mark, key, found);
@@ -113,6 +117,7 @@ export const {
   entriesOf,
   entryOf,
   exchangeLayer,
+  family,
   hovered,
   isolate,
   keepDraft,

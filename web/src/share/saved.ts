@@ -5,6 +5,7 @@ import { jsonLimits, parseJson } from '../program/json';
 import { layerSchema, limits, programSchema } from '../program/schema';
 import type { CameraPose } from '../scene/camera';
 import type { Document } from '../session/document';
+import { savedFamily } from '../session/family_state';
 import { extrasEntries, extrasOf, salvageExtras } from './extras';
 
 const id = v.pipe(v.string(), v.minLength(1), v.maxBytes(limits.nameLength));
@@ -25,6 +26,10 @@ const label: v.GenericSchema<unknown, [string, string]> = v.strictTuple([
   v.pipe(v.string(), v.regex(/^node:\d{1,9}\/\d{1,9}$/)),
   id,
 ]);
+const choice: v.GenericSchema<unknown, [string, 'forced' | 'off']> = v.strictTuple([
+  v.pipe(v.string(), v.maxBytes(2 * limits.nameLength)),
+  v.picklist(['forced', 'off']),
+]);
 const viewSchema: v.GenericSchema<unknown, CameraPose> = v.strictTuple([
   finite,
   finite,
@@ -33,6 +38,13 @@ const viewSchema: v.GenericSchema<unknown, CameraPose> = v.strictTuple([
   finite,
   finite,
 ]);
+
+/** Of a CAD program: how many of the first layers are its sliders, and what makes its family another than it came with. */
+const familySchema = v.strictObject({
+  sliders: v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(limits.layers)),
+  choices: v.pipe(v.array(choice), v.maxLength(limits.statements)),
+  variations: v.exactOptional(v.looseObject({ format: v.literal('parsel/variations') })),
+});
 
 const splitSchema = v.strictObject({
   by: v.picklist(['auto', 'components', 'materials', 'regions']),
@@ -51,6 +63,7 @@ const savedSchema = v.strictObject({
   names: v.pipe(v.array(renamed), v.maxLength(limits.statements)),
   /** Labels given in place of the file's own, by "node:<index>/<primitive>". */
   labels: v.exactOptional(v.pipe(v.array(label), v.maxLength(limits.statements))),
+  family: v.exactOptional(familySchema),
   /** How the parts were told apart before all else; the hash is that of the result. */
   split: v.exactOptional(splitSchema),
   view: v.exactOptional(viewSchema),
@@ -71,6 +84,7 @@ export function save(document: Document, view?: CameraPose): Saved {
   const { model, layers, hidden, names } = document;
   if (model === null) throw new Error('there is no model to save the work on');
   const { shape, source, labels } = model;
+  const family = savedFamily(document);
   const { split } = model.files;
   return {
     format: 'parsel/session',
@@ -91,6 +105,7 @@ export function save(document: Document, view?: CameraPose): Saved {
     hidden: [...hidden],
     names: [...names],
     ...(labels.size > 0 ? { labels: [...labels] } : {}),
+    ...(family === undefined ? {} : { family: family as unknown as v.InferOutput<typeof familySchema> }),
     ...(split === undefined ? {} : { split: { by: split.by, fine: split.fine } }),
     ...extrasOf(document),
     ...(view === undefined ? {} : { view }),
@@ -148,6 +163,8 @@ function salvage(json: Json): Work | null {
   const split = v.safeParse(splitSchema, json['split']);
   if (!split.success && json['split'] !== undefined) lost.push('how the parts were told apart');
   if (!view.success && json['view'] !== undefined) lost.push('the view');
+  const family = v.safeParse(familySchema, json['family']);
+  if (!family.success && json['family'] !== undefined) lost.push('the family');
   const [extras, damaged] = salvageExtras(
     json,
     layers.map(({ index }) => index),
@@ -168,6 +185,7 @@ function salvage(json: Json): Work | null {
     hidden: some(listOf(json['hidden'], 'what is hidden'), id, 'what is hidden'),
     names: some(listOf(json['names'], 'names'), renamed, 'names'),
     ...(labels.length > 0 ? { labels } : {}),
+    ...(family.success ? { family: family.output } : {}),
     ...(split.success ? { split: split.output } : {}),
     ...(view.success ? { view: view.output } : {}),
     ...extras,

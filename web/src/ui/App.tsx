@@ -12,7 +12,6 @@ import { dialog, openAny } from './actions';
 import { Compass } from './Compass';
 import { Composer } from './Composer';
 import { Dimensions } from './Dimensions';
-import { EditsPanel } from './EditsPanel';
 import { ExploreDialog } from './ExploreDialog';
 import { FirstScreen } from './FirstScreen';
 import { isEmbedded } from './frame';
@@ -25,6 +24,7 @@ import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { ProgramDialog } from './ProgramDialog';
 import { ReadingsDialog } from './ReadingsDialog';
+import { RightPanel } from './RightPanel';
 import { ShareDialog } from './ShareDialog';
 import { SplitOffer } from './SplitCard';
 import { StageView } from './StageView';
@@ -68,7 +68,7 @@ export function App() {
   const insets: Insets = isPhone.value
     ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 98 : 158 }
     : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 150 };
-  const edits = <EditsPanel pickKind={pickKind} />;
+  const edits = <RightPanel pickKind={pickKind} />;
   const parts = (
     <PartsPanel
       onEdit={() => {

@@ -11,7 +11,7 @@ export function DropZone({ onPicked }: { onPicked: () => void }) {
       <Icon name="open" />
       <p class="grow">
         <strong>Drop a model anywhere on this page</strong>
-        <span class="quiet">.glb, .gltf or .obj with its files, .3mf, .ply, .stl, .zip, .parsel.json</span>
+        <span class="quiet">.glb, .gltf or .obj with its files, .3mf, .ply, .stl, .scad, .csg, .zip, .parsel.json</span>
       </p>
       <FileButton label="Files…" onPicked={onPicked} />
       <FileButton label="Folder…" folder onPicked={onPicked} />

@@ -3,6 +3,7 @@ import type { Signal } from '@preact/signals';
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { models } from '../session/core';
+import { editsOf } from '../session/family_state';
 import { loadGallery, type Suggestion } from '../session/gallery';
 import { playOnce } from '../session/play';
 import { compiled, document, propagate, task } from '../session/session';
@@ -24,7 +25,8 @@ interface EditsProps {
 }
 
 export function EditsPanel({ pickKind }: EditsProps) {
-  const { model, layers } = document.value;
+  const { model } = document.value;
+  const layers = editsOf(document.value);
   const cards = useRef<HTMLUListElement>(null);
   const known = useRef(layers.length);
   useEffect(() => {

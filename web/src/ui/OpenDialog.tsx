@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { models } from '../session/core';
-import { type GalleryEntry, loadGallery } from '../session/gallery';
+import { type GalleryEntry, loadGallery, loadPrograms } from '../session/gallery';
 import { modelHosts } from '../session/model_hosts';
 import { openGallery, openUrl } from '../session/open';
 import { dialog } from './actions';
@@ -16,16 +16,18 @@ const close = () => {
 
 export function OpenDialog() {
   const gallery = useSignal<readonly GalleryEntry[]>([]);
+  const programs = useSignal<readonly GalleryItem[]>([]);
   const address = useSignal('');
   const ready = models.value !== null;
   useEffect(() => {
     let stop = () => {};
-    void loadGallery().then((entries) => {
+    void Promise.all([loadGallery(), loadPrograms()]).then(([entries, cad]) => {
       gallery.value = entries;
-      stop = thumbnails(entries.map(({ id }) => id));
+      programs.value = cad;
+      stop = thumbnails([...entries, ...cad].map(({ id }) => id));
     });
     return () => stop();
-  }, [gallery]);
+  }, [gallery, programs]);
 
   return (
     <Dialog title="Open a model" class="open" onClose={close}>
@@ -55,9 +57,21 @@ export function OpenDialog() {
           Open
         </button>
       </form>
-      {gallery.value.length > 0 && <h3>Gallery</h3>}
+      <Gallery title="Gallery" entries={gallery.value} ready={ready} />
+      <Gallery title="OpenSCAD programs, each with its kinds" entries={programs.value} ready={ready} />
+    </Dialog>
+  );
+}
+
+type GalleryItem = Pick<GalleryEntry, 'id' | 'title'>;
+
+function Gallery({ title, entries, ready }: { title: string; entries: readonly GalleryItem[]; ready: boolean }) {
+  if (entries.length === 0) return null;
+  return (
+    <>
+      <h3>{title}</h3>
       <ul class="gallery">
-        {gallery.value.map(({ id, title }) => (
+        {entries.map(({ id, title: name }) => (
           <li key={id}>
             <button
               type="button"
@@ -71,11 +85,11 @@ export function OpenDialog() {
               <span class="thumbnail">
                 {thumbnailUrls.value.has(id) && <img src={thumbnailUrls.value.get(id) ?? ''} alt="" />}
               </span>
-              <span>{title}</span>
+              <span>{name}</span>
             </button>
           </li>
         ))}
       </ul>
-    </Dialog>
+    </>
   );
 }

@@ -9,6 +9,7 @@ import {
   exportSliders,
   saveSession,
 } from './actions';
+import { exportScad } from './family_export';
 import { Icon } from './Icon';
 import { Menu, type MenuItem } from './Menu';
 import { startTour } from './Tour';
@@ -16,7 +17,7 @@ import { isDark, toggleTheme } from './theme';
 import { apart, showColours, toggleApart } from './view';
 
 function exportItems(): MenuItem[] {
-  const { model, layers } = document.value;
+  const { model, layers, family } = document.value;
   const none = model === null;
   const noLayer = none || !layers.some(({ enabled }) => enabled);
   return [
@@ -30,6 +31,7 @@ function exportItems(): MenuItem[] {
     { label: 'Animated by the last slider', hint: '.glb', disabled: noLayer, act: () => void exportModel('animated') },
     { label: 'Model with sliders', hint: 'one .glb', disabled: noLayer, act: () => void exportOneFile() },
     { label: 'Sliders alone', hint: '.sliders.json', disabled: noLayer, act: () => void exportSliders() },
+    ...(family === undefined ? [] : [{ label: 'OpenSCAD with sliders', hint: '.scad', act: () => void exportScad() }]),
     { label: 'Program', hint: '.json', disabled: noLayer, act: exportProgram },
     { label: 'Session', hint: '.parsel.json', disabled: none, act: saveSession },
     { label: 'Picture', hint: '.png', disabled: none, act: () => void exportScreenshot() },

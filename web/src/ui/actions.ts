@@ -4,6 +4,7 @@ import { models } from '../session/core';
 import { programOf } from '../session/document';
 import { editedName, plainName } from '../session/download_names';
 import { activeLayers } from '../session/evaluation';
+import { absentParts } from '../session/family_state';
 import { type FileSet, hasModel, sessionOf, unpacked } from '../session/files';
 import type { ExportOptions } from '../session/model_core';
 import { oneFile, slidersOfWork } from '../session/one_file';
@@ -43,7 +44,7 @@ export async function openAny(reading: Promise<FileSet>): Promise<boolean> {
   return openSaved(core, read, hasModel(files) ? files : null);
 }
 
-function download(name: string, content: Blob): void {
+export function download(name: string, content: Blob): void {
   const url = URL.createObjectURL(content);
   const link = Object.assign(globalThis.document.createElement('a'), { href: url, download: name });
   link.click();
@@ -89,7 +90,10 @@ export async function exportModel(kind: 'all' | 'selected' | 'animated'): Promis
   const { model } = document.peek();
   if (core === null || model === null) return;
   const program = programOf(model.shape, activeLayers(document.peek()));
+  const absent = absentParts(document.peek());
+  const present = model.shape.parts.flatMap(({ id, virtual }) => (virtual || absent.has(id) ? [] : [id]));
   const options: ExportOptions = {
+    ...(absent.size > 0 ? { only: present } : {}),
     ...(kind === 'animated' ? { animate: program.layers.at(-1)?.parameter.name ?? '' } : {}),
     ...(kind === 'selected' ? { only: [...selected.peek()] } : {}),
   };

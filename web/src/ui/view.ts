@@ -144,9 +144,11 @@ function light(on: Stage): void {
   const relations = (pointedAt.value?.relations ?? []).map((id) =>
     model.shape.relations.findIndex((relation) => relation.id === id),
   );
-  const part = model.shape.parts.findIndex(({ id }) => id === selection.value?.part);
+  const indexOf = (wanted: string | undefined) => model.shape.parts.findIndex(({ id }) => id === wanted);
+  const part = indexOf(selection.value?.part);
+  const faces = (pointedAt.value?.faces ?? []).map((face) => ({ ...face, part: indexOf(face.part) }));
   if (on.corners.length > 0) {
-    actor.overlays.show({ part, feature: selection.value?.feature ?? [0, 0, 0], relations }, on.corners);
+    actor.overlays.show({ part, feature: selection.value?.feature ?? [0, 0, 0], relations, faces }, on.corners);
   }
   on.invalidate();
 }

@@ -1,6 +1,7 @@
 // What the page and the core say to each other. The core's side is wasm/methods.cpp; tests/web/protocol.test.ts fails
 // when the two differ.
 import * as v from 'valibot';
+import { familyMethods } from './family_protocol';
 
 /** Why something was refused: where it happened, where in the input, what is wrong and what to do about it. */
 export const errorSchema = v.strictObject({ stage: v.string(), place: v.string(), cause: v.string(), fix: v.string() });
@@ -288,6 +289,7 @@ export const methodSchemas = {
     parameters: v.strictObject({ request: v.string(), replies: v.array(repliesSchema) }),
     result: inferenceSchema,
   },
+  ...familyMethods,
   /** Goes wrong on purpose: how the recovery below is tested. */
   fail: {
     parameters: v.strictObject({ kind: v.picklist(['exception', 'abort', 'memory', 'hang']) }),

@@ -1,0 +1,283 @@
+// Families of the gallery's CAD programs, from the core through the session: sliders, stops, mixtures, what is shared, and
+// work that is saved and opened again.
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import * as v from 'valibot';
+import { beforeAll, describe, expect, it } from 'vitest';
+import type { Shape } from '../../web/src/program/types';
+import type { CadSource, ModelFiles } from '../../web/src/scene/load';
+import { emptyDocument, noLabels } from '../../web/src/session/document';
+import { familyOf, withProgramRead } from '../../web/src/session/family';
+import { choicesFor, sharedClasses } from '../../web/src/session/family_shared';
+import {
+  baseOf,
+  editsOf,
+  type FamilyState,
+  lengthAt,
+  mixed,
+  settingOf,
+  stopsOf,
+  withFamily,
+} from '../../web/src/session/family_state';
+import type { ModelCore } from '../../web/src/session/model_core';
+import { createSession } from '../../web/src/session/session';
+import { readSaved, save } from '../../web/src/share/saved';
+import { methodSchemas } from '../../web/src/worker/protocol';
+import { fakeCore, moving } from './fake_core';
+import { type LoadedModule, loadModule } from './module';
+
+const programs = ['bottle', 'camera', 'car', 'chair', 'table'] as const;
+const text = (name: string) =>
+  new Uint8Array(readFileSync(fileURLToPath(new URL(`../../core/gallery/programs/${name}`, import.meta.url))));
+const options = { signal: new AbortController().signal, onProgress: () => {} };
+
+let module: LoadedModule;
+let core: ModelCore;
+beforeAll(async () => {
+  module = await loadModule();
+  const call = (method: 'open_cad' | 'find_family' | 'family_text', parameters: unknown, given: Uint8Array[] = []) => {
+    const reply = module.invoke(method, JSON.stringify(parameters), given, null);
+    const message = JSON.parse(reply.json) as { result?: unknown; error?: { place: string; cause: string } };
+    if (message.error) throw new Error(`${message.error.place}: ${message.error.cause}`);
+    return { result: v.parse(methodSchemas[method].result, message.result) as never, buffers: reply.buffers };
+  };
+  core = {
+    ...fakeCore(),
+    async readCad(name, program) {
+      const { result, buffers } = call('open_cad', { name }, [program]);
+      return { read: result, glb: buffers[0] as Uint8Array };
+    },
+    async findFamily(about) {
+      const { result, buffers } = call('find_family', about);
+      return { found: result, pictures: buffers };
+    },
+    familyText: async (about) => call('family_text', about).result,
+  };
+});
+
+async function opened(name: string) {
+  const beside = { name, main: text(`${name}.scad`), external: new Map() };
+  const program = { variations: text(`${name}.variations.json`) };
+  const files = (await withProgramRead(core, { ...beside, program }, options)) as ModelFiles & { cad: CadSource };
+  const reply = module.invoke('open', JSON.stringify({ name, external: [] }), [files.main], null);
+  const { shape } = (JSON.parse(reply.json) as { result: { shape: Shape } }).result;
+  const model = { files, shape, source: { kind: 'file' as const }, labels: noLabels };
+  const session = createSession();
+  const source = await familyOf(core, files, undefined, options);
+  session.replaceDocument(withFamily({ ...emptyDocument, model }, source, 0, session.newEntry), `open ${name}`);
+  const family = () => session.document.value.family as FamilyState;
+  return { session, family, model, cad: files.cad };
+}
+
+const close = (a: readonly number[], b: readonly number[]) => {
+  expect(a.length).toBe(b.length);
+  for (const [k, value] of a.entries()) expect(value).toBeCloseTo(b[k] as number, 6);
+};
+
+describe('the family of a program', () => {
+  it.each(programs)(
+    '%s: sliders evaluate, and every variation lies within what they and their stops allow',
+    async (name) => {
+      const { session, family } = await opened(name);
+      expect(session.compiled.value.kind).toBe('ready');
+      const { sliders, variations } = family().found.family;
+      expect(family().keys).toHaveLength(sliders.length);
+      expect(family().pictures).toHaveLength(variations.length);
+      for (const [i, { absent }] of variations.entries()) {
+        session.family.showVariation(i);
+        const now = session.family.settingNow(family());
+        expect(session.family.isAt(family(), settingOf(family(), i))).toBe(true);
+        for (const [k, { parameter }] of sliders.entries()) {
+          if (absent.includes(parameter.split('.')[0] as string)) continue; // moves nothing that is there
+          expect(now[k]).toBeCloseTo(settingOf(family(), i)[k] as number, 6);
+        }
+        for (const k of sliders.keys()) {
+          const { low, high } = stopsOf(family(), now, k, (id) => absent.includes(id));
+          expect(low).toBeLessThanOrEqual((now[k] as number) + 1e-6);
+          expect(high).toBeGreaterThanOrEqual((now[k] as number) - 1e-6);
+        }
+      }
+      session.undo();
+      expect(session.family.isAt(family(), settingOf(family(), variations.length - 2))).toBe(true);
+    },
+  );
+
+  it('what the page draws at a variation is what the program makes there', async () => {
+    const { session, family, model } = await opened('chair');
+    const bounds = JSON.parse(new TextDecoder().decode(text('chair.variations.json'))).variations[3];
+    expect(bounds.name).toBe('bar stool');
+    session.family.showVariation(3);
+    const state = session.compiled.value;
+    if (state.kind !== 'ready') throw new Error(state.kind);
+    const seat = model.shape.parts.findIndex(({ id }) => id === 'seat');
+    const corners = state.evaluator.corners.slice(seat * 24, seat * 24 + 24);
+    const metres = family().found.metres;
+    for (const axis of [0, 2]) {
+      const along = [...corners].filter((_, i) => i % 3 === axis);
+      const size = (Math.max(...along) - Math.min(...along)) * model.shape.frame.scale;
+      expect(size).toBeCloseTo((bounds.bounds.seat[axis][1] - bounds.bounds.seat[axis][0]) * metres, 6);
+    }
+    expect([...session.document.value.hidden].sort()).toEqual(['arm_left', 'arm_right']);
+  });
+
+  it('mixes: weights alone, together and beyond a whole, on top of what was moved by hand', async () => {
+    const { session, family } = await opened('chair');
+    const f = family();
+    const none = f.weights.map(() => 0);
+    close(mixed(f, none), baseOf(f));
+    close(
+      mixed(
+        f,
+        f.weights.map((_, i) => (i === 2 ? 1 : 0)),
+      ),
+      settingOf(f, 2),
+    );
+    const both = mixed(
+      f,
+      f.weights.map((_, i) => (i < 2 ? 1 : 0)),
+    );
+    close(
+      both,
+      settingOf(f, 0).map((value, k) => (value + (settingOf(f, 1)[k] as number)) / 2),
+    );
+
+    const k = f.found.family.sliders.findIndex(({ name }) => name === 'leg height');
+    session.setValue(f.keys[k] as number, 0.01);
+    const before = session.family.settingNow(family());
+    session.family.mix(3, 0.25, false);
+    expect(session.document.value.layers[k]?.value).toBeCloseTo(0.01); // not kept yet
+    session.family.mix(3, 0.5, true);
+    const half = mixed(
+      f,
+      f.weights.map((_, i) => (i === 3 ? 0.5 : 0)),
+    );
+    const moved = session.family.settingNow(family());
+    expect((moved[k] as number) - (before[k] as number)).toBeCloseTo((half[k] as number) - (baseOf(f)[k] as number), 6);
+    session.undo();
+    close(session.family.settingNow(family()), before);
+    expect(family().weights).toEqual(none);
+  });
+
+  it('a slider stops where parts would meet, and says which', async () => {
+    const { family } = await opened('table');
+    const f = family();
+    const stops = f.found.family.sliders.map((_, k) => stopsOf(f, baseOf(f), k, () => false));
+    const said = stops.flatMap(({ lowText, highText }) => [lowText, highText]).filter((one) => one !== null);
+    expect(said.join('\n')).toMatch(/the \w.* meets the \w/);
+    for (const [k, { low }] of stops.entries()) expect(low).toBeLessThanOrEqual(baseOf(f)[k] as number);
+  });
+
+  it('what is shared is told by class, and switching a class changes the sliders and nothing that stands', async () => {
+    const { session, family, cad } = await opened('chair');
+    const { constraints } = family().found.family;
+    const classes = sharedClasses(constraints, cad.parts);
+    const told = classes.flatMap(({ ids }) => ids);
+    expect(new Set(told).size).toBe(told.length);
+    const isCorner = (id: string) => /^coincident/.test(id);
+    expect(constraints.filter(({ id }) => !told.includes(id) && !isCorner(id))).toEqual([]);
+    const texts = classes.filter(({ agreement }) => agreement === 'common').map(({ text: said }) => said);
+    expect(texts).toContain('The legs are equally high');
+    expect(texts).toContain('The seat on top of the legs');
+    expect(texts.length).toBeLessThan(constraints.length / 3);
+
+    session.family.showVariation(1);
+    const parameters = () => session.compiled.value.kind === 'ready' && [...session.compiled.value.evaluator.corners];
+    const stood = parameters() as number[];
+    const before = family().keys.length;
+    const onTop = classes.filter(({ text: said }) => /^The (back|arms|seat) on top of/.test(said));
+    const changes = new Map(onTop.flatMap((shared) => [...choicesFor(shared, false)]));
+    await session.family.choose(core, changes);
+    expect(family().keys.length).toBeGreaterThan(before);
+    close(parameters() as number[], stood);
+    const again = sharedClasses(family().found.family.constraints, cad.parts);
+    const off = again.filter(({ key }) => onTop.some((shared) => shared.key === key));
+    expect(off.map(({ kept }) => kept)).toEqual(onTop.map(() => false));
+    await session.family.choose(core, new Map(off.flatMap((shared) => [...choicesFor(shared, true)])));
+    expect(family().keys.length).toBe(before);
+    expect(family().choices).toEqual({});
+  });
+
+  it('keeps what is shown as a variation, and lets it go', async () => {
+    const { session, family } = await opened('table');
+    const { length } = family().found.family.variations;
+    session.family.showVariation(0);
+    session.setValue(family().keys[0] as number, session.document.value.layers[0]?.layer.parameter.max as number);
+    const stood = session.family.settingNow(family());
+    expect(await session.family.keepVariation(core, 'my own')).toBe(true);
+    expect(family().found.family.variations.at(-1)?.name).toBe('my own');
+    const byName = new Map(family().found.family.sliders.map(({ name }, k) => [name, settingOf(family(), length)[k]]));
+    expect([...byName.values()].length).toBeGreaterThanOrEqual(stood.length); // one more may be needed
+    await session.family.removeVariation(core, length);
+    expect(family().found.family.variations).toHaveLength(length);
+  });
+
+  it('is saved and opened again: values, choices, own variations; edits behind the sliders stay edits', async () => {
+    const { session, family, model, cad } = await opened('chair');
+    session.addProgram(moving('seat'), 'lift the seat');
+    const [first] = sharedClasses(family().found.family.constraints, cad.parts).filter(({ kept }) => kept);
+    await session.family.choose(core, choicesFor(first as NonNullable<typeof first>, false));
+    session.family.showVariation(2);
+    const read = readSaved(JSON.parse(JSON.stringify(save(session.document.value))));
+    if (!read.ok) throw new Error(read.text);
+    expect(read.saved.family?.variations).toBeUndefined(); // they come with the program
+    const source = await familyOf(core, model.files, read.saved.family, options);
+    const other = createSession();
+    const layers = read.saved.program.layers.map((layer) => other.newEntry(layer as never, layer.parameter.value));
+    const document = withFamily(
+      { ...emptyDocument, model, layers },
+      source,
+      read.saved.family?.sliders ?? 0,
+      other.newEntry,
+    );
+    other.replaceDocument(document, 'open');
+    close(other.family.settingNow(document.family as FamilyState), session.family.settingNow(family()));
+    expect(editsOf(document).map(({ layer }) => layer.request)).toEqual(
+      editsOf(session.document.value).map(({ layer }) => layer.request),
+    );
+    expect(document.family?.choices).toEqual(family().choices);
+
+    const damaged = await familyOf(core, model.files, { sliders: 1, choices: [['no such', 'off']] }, options);
+    expect(damaged?.choices).toEqual({});
+  });
+
+  it('is written as OpenSCAD that begins where it stands, and reads back to that', async () => {
+    const { session, family, cad } = await opened('chair');
+    session.family.showVariation(3);
+    const setting = [...session.family.settingNow(family())];
+    const about = { cad: cad.program, variations: family().variations, choices: {}, setting };
+    const { scad, sets } = await core.familyText({ ...about, with: family().found.family.optional.map(() => true) });
+    expect(Object.keys(sets.parameterSets)).toContain('bar stool');
+    const { sliders } = family().found.family;
+    for (const [k, { variable }] of sliders.entries()) {
+      const [, value] = new RegExp(`^${variable} = (\\S+);`, 'm').exec(scad) ?? [];
+      expect(Number(value)).toBeCloseTo(setting[k] as number, 6);
+      expect(lengthAt(family(), k, 0)).toBe(sliders[k]?.value);
+    }
+    const { read } = await core.readCad('again', new TextEncoder().encode(scad), options);
+    const parts = (read.cad as unknown as { parts: { label: string; size: number[] }[] }).parts;
+    expect(parts.find(({ label }) => label === 'seat')?.size[1]).toBeCloseTo(40, 9);
+  });
+});
+
+describe('programs that cannot be opened', () => {
+  const loop = 'module m() { m(); }\n\nm();\n';
+  it.each([
+    ['without an end', loop, /line 1|line 3/],
+    ['minkowski', 'cube(1);\nminkowski() { cube(1); sphere(1); }\n', /line 2/],
+    ['text', 'cube(1);\n\ntext("hello");\n', /line 3/],
+    ['import', 'import("x.stl");\n', /line 1/],
+    ['a statement without an end', 'cube([1, 2, 3]);\ntranslate([0, 0\n', /line [23]/],
+    ['division by zero', 'cube([1, 1, 1 / 0]);\n', /line 1/],
+    ['10 MB', 'cube([1, 1, 1]);\n'.repeat(620_000), /MB|MiB|bytes|large|long/],
+  ])('%s: refused by line, within a second', async (_, program, wanted) => {
+    const began = performance.now();
+    const main = new TextEncoder().encode(program);
+    const read = withProgramRead(
+      core,
+      { name: 'x', main, external: new Map(), program: { variations: null } },
+      options,
+    );
+    await expect(read).rejects.toThrow(wanted);
+    expect(performance.now() - began).toBeLessThan(10_000); // a second on a machine that does nothing else
+  });
+});

@@ -1,0 +1,141 @@
+#include "wasm/cad_methods.h"
+
+#include <algorithm>
+
+#include "core/base/sha256.h"
+#include "core/cad/cad_mesh.h"
+#include "core/cad/scad_flatten.h"
+#include "core/family/family.h"
+#include "core/family/family_program.h"
+#include "core/family/family_scad.h"
+#include "core/gallery/programs.h"
+
+namespace parsel::wasm {
+
+using family::Family;
+using nlohmann::json;
+
+namespace {
+
+Error not_as_agreed(const std::string& name, const std::string& expected) {
+  return {"wasm", name, "it is not " + expected, "please report this: page and core disagree"};
+}
+
+Result<family::Choices> choices_of(const json& given) {
+  if (!given.is_object()) return not_as_agreed("choices", "choices by constraint");
+  family::Choices choices;
+  for (const auto& [id, choice] : given.items()) {
+    if (choice != "forced" && choice != "off") return not_as_agreed("choices", "forced or off for each");
+    choices[id] = choice == "forced" ? family::Choice::forced : family::Choice::off;
+  }
+  return choices;
+}
+
+Result<Family> family_of(const json& parameters) {
+  Result<cad::Model> model = cad::model_from_json(parameters.value("cad", json()));
+  if (!model.ok()) return model.error();
+  family::Options options;
+  options.vocabulary = family::Vocabulary::extended;
+  Result<family::Choices> choices = choices_of(parameters.value("choices", json::object()));
+  if (!choices.ok()) return choices.error();
+  options.choices = std::move(*choices);
+  std::vector<family::Variation> variations;
+  if (const json given = parameters.value("variations", json()); !given.is_null()) {
+    auto read = family::variations_from_json(given, family::layout_of(*model, options.vocabulary), *model);
+    if (!read.ok()) return read.error();
+    variations = std::move(*read);
+  }
+  return make_family(*model, std::move(variations), options);
+}
+
+json bounds_json(const Family& family) {
+  json list = json::array();
+  for (const family::Bound& bound : family.bounds) {
+    json pairs = json::array();
+    for (const auto& [a, b] : bound.parts)
+      pairs.push_back(json::array({family.model.parts[a].id, family.model.parts[b].id}));
+    list.push_back({{"form", std::vector<double>(bound.form.data(), bound.form.data() + bound.form.size())},
+                    {"constant", bound.constant},
+                    {"text", stop_text(family, bound.stop)},
+                    {"parts", std::move(pairs)}});
+  }
+  return list;
+}
+
+/// A variation as it lies in the family, with the parts that it has.
+cad::Model shown_model(const Family& family, std::size_t variation) {
+  cad::Model model = family.at(family.settings[variation]);
+  std::size_t p = 0;
+  std::erase_if(model.parts, [&](const cad::Part&) { return !family.variations[variation].has(p++); });
+  return model;
+}
+
+}  // namespace
+
+Result<Output> open_cad(const Input& input) {
+  const json name = input.parameters.value("name", json());
+  if (!name.is_string() || input.buffers.size() != 1) return not_as_agreed("name", "a text, and one file with it");
+  const Result<cad::Model> model = cad::read_scad(input.buffers[0], name.get<std::string>());
+  if (!model.ok()) return model.error();
+  json warnings = json::array(), parts = json::array();
+  for (const cad::Notice& notice : model->warnings) {
+    warnings.push_back((notice.place.line > 0 ? to_string(notice.place) + ": " : "") + notice.text);
+  }
+  for (const cad::Part& part : model->parts) {
+    parts.push_back({{"id", part.id}, {"name", part.name}, {"stem", stem(part)}, {"role", to_string(part.role)}});
+  }
+  return Output{{{"cad", to_json(*model)}, {"warnings", std::move(warnings)}, {"parts", std::move(parts)}},
+                {cad::to_glb(*model)}};
+}
+
+Result<Output> find_family(const Input& input) {
+  const Result<Family> family = family_of(input.parameters);
+  if (!family.ok()) return family.error();
+  const Result<Program> program =
+      family::family_program(*family, family->model.name, sha256_hex(cad::to_glb(family->model)));
+  if (!program.ok()) return program.error();
+  json values = json::object();
+  for (std::size_t i = 0; i < family->layout.size(); ++i) {
+    values[family->layout.parameters[i].name] = family->base[static_cast<Eigen::Index>(i)];
+  }
+  Output output{{{"family", to_json(*family)},
+                 {"program", to_json(*program)},
+                 {"values", std::move(values)},
+                 {"bounds", bounds_json(*family)},
+                 {"scale", family::drawn_frame(family->model).scale},
+                 {"metres", cad::metres(family->model)}},
+                {}};
+  for (std::size_t v = 0; v < family->variations.size(); ++v) {
+    output.buffers.push_back(cad::to_glb(shown_model(*family, v)));
+  }
+  return output;
+}
+
+Result<Output> family_text(const Input& input) {
+  const Result<Family> family = family_of(input.parameters);
+  if (!family.ok()) return family.error();
+  const json setting = input.parameters.value("setting", json()), with = input.parameters.value("with", json());
+  if (!setting.is_array() || setting.size() != family->sliders.size() ||
+      !std::all_of(setting.begin(), setting.end(), [](const json& value) { return value.is_number(); })) {
+    return not_as_agreed("setting", "a number for each slider");
+  }
+  if (!with.is_array() || with.size() != family->optional.size() ||
+      !std::all_of(with.begin(), with.end(), [](const json& value) { return value.is_boolean(); })) {
+    return not_as_agreed("with", "true or false for each optional group");
+  }
+  family::Shown shown{Eigen::VectorXd(static_cast<Eigen::Index>(setting.size())), with.get<std::vector<bool>>()};
+  for (std::size_t k = 0; k < setting.size(); ++k) shown.setting[static_cast<Eigen::Index>(k)] = setting[k];
+  return Output{{{"scad", family_scad(*family, shown)}, {"sets", parameter_sets(*family)}}, {}};
+}
+
+Result<Output> cad_gallery(const Input&) {
+  Output output{{{"programs", json::array()}}, {}};
+  for (const GalleryProgram& program : gallery_programs()) {
+    output.result["programs"].push_back({{"id", program.id}});
+    output.buffers.emplace_back(program.scad);
+    output.buffers.emplace_back(program.variations);
+  }
+  return output;
+}
+
+}  // namespace parsel::wasm

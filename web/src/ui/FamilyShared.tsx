@@ -1,0 +1,85 @@
+// What the variations have in common, a line a class: each can be switched, and shows its faces while it is pointed at.
+import { useMemo } from 'preact/hooks';
+import type { CadSource } from '../scene/load';
+import { models } from '../session/core';
+import { type Agreement, choicesFor, type SharedClass, sharedClasses } from '../session/family_shared';
+import type { FamilyState } from '../session/family_state';
+import { family as actions, pointedAt, task } from '../session/session';
+
+interface FamilySharedProps {
+  readonly family: FamilyState;
+  readonly cad: CadSource;
+  /** Ids of the shape by ids of the program. */
+  readonly ids: ReadonlyMap<string, string>;
+}
+
+const sections: readonly (readonly [Agreement, string, string])[] = [
+  ['common', 'In common', 'Kept by every slider. Switch off what is not meant.'],
+  ['near', 'All but one', 'True of all variations but the one that is named. Switch on what is meant all the same.'],
+  ['accidental', 'By accident', 'True of the program as it is drawn, and of few others.'],
+];
+
+export function FamilyShared({ family, cad, ids }: FamilySharedProps) {
+  const { constraints } = family.found.family;
+  const classes = useMemo(() => sharedClasses(constraints, cad.parts), [constraints, cad]);
+  return (
+    <section aria-label="What they have in common">
+      {sections.map(([agreement, title, help]) => {
+        const own = classes.filter((shared) => shared.agreement === agreement);
+        if (own.length === 0) return null;
+        return (
+          <details key={agreement} class="shared">
+            <summary>
+              {title} <span class="quiet">{own.length}</span>
+            </summary>
+            <p class="quiet">{help}</p>
+            <ul>
+              {own.map((shared) => (
+                <Line key={shared.key} shared={shared} ids={ids} />
+              ))}
+            </ul>
+          </details>
+        );
+      })}
+    </section>
+  );
+}
+
+function Line({ shared, ids }: { shared: SharedClass; ids: ReadonlyMap<string, string> }) {
+  const faces = shared.faces.flatMap(({ part, feature }) => {
+    const id = ids.get(part);
+    return id === undefined ? [] : [{ part: id, feature }];
+  });
+  const show = () => {
+    pointedAt.value = { parts: [...new Set(faces.map(({ part }) => part))], relations: [], faces };
+  };
+  const hide = () => {
+    pointedAt.value = null;
+  };
+  const broken = shared.brokenBy;
+  const not =
+    broken.length > 2 ? `${broken.slice(0, 2).join(', ')} and ${broken.length - 2} more` : broken.join(' and ');
+  return (
+    <li onPointerEnter={show} onPointerLeave={hide} onFocus={show} onBlur={hide}>
+      <label class="check">
+        <input
+          type="checkbox"
+          checked={shared.kept}
+          disabled={models.value === null || task.value !== null}
+          onChange={(event) =>
+            models.value && void actions.choose(models.value, choicesFor(shared, event.currentTarget.checked))
+          }
+        />
+        <span>
+          {shared.text}
+          {shared.of > 0 && (
+            <span class="quiet">
+              {' '}
+              · {shared.agreement === 'common' ? `in all ${shared.of} that have it` : `not in the ${not}`}
+            </span>
+          )}
+        </span>
+      </label>
+    </li>
+  );
+}

@@ -1,0 +1,40 @@
+// The right panel: the edits, and beside them the family of a CAD program.
+import type { Signal } from '@preact/signals';
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { document } from '../session/session';
+import { EditsPanel } from './EditsPanel';
+import { FamilyPanel } from './FamilyPanel';
+import type { FeatureKind } from './words';
+
+export function RightPanel({ pickKind }: { readonly pickKind: Signal<FeatureKind | null> }) {
+  const tab = useSignal<'family' | 'edits'>('family');
+  const { family, model, layers } = document.value;
+  const edits = layers.length - (family?.keys.length ?? 0);
+  useEffect(() => {
+    tab.value = 'family';
+  }, [model?.files, tab]);
+  useEffect(() => {
+    if (edits > 0) tab.value = 'edits'; // a new edit, whose slider is wanted next
+  }, [edits, tab]);
+  if (family === undefined) return <EditsPanel pickKind={pickKind} />;
+  return (
+    <>
+      <div class="tabs family-tabs">
+        {(['family', 'edits'] as const).map((name) => (
+          <button
+            key={name}
+            type="button"
+            aria-pressed={tab.value === name}
+            onClick={() => {
+              tab.value = name;
+            }}
+          >
+            {name === 'family' ? 'Family' : 'Edits'}
+          </button>
+        ))}
+      </div>
+      {tab.value === 'family' ? <FamilyPanel /> : <EditsPanel pickKind={pickKind} />}
+    </>
+  );
+}

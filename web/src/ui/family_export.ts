@@ -1,0 +1,37 @@
+// A family as files that work without this page: an OpenSCAD program, and the parameter sets of its Customizer.
+import { models } from '../session/core';
+import { plainName } from '../session/download_names';
+import { shapeIds } from '../session/family_state';
+import { family as actions, document, run } from '../session/session';
+import { download } from './actions';
+
+async function text() {
+  const core = models.peek();
+  const { model, family, hidden } = document.peek();
+  const cad = model?.files.cad;
+  if (core === null || model === null || family === undefined || cad === undefined) return null;
+  const ids = shapeIds(cad, model.shape);
+  const made = await run('Writing the program', () =>
+    core.familyText({
+      cad: cad.program,
+      variations: family.variations,
+      choices: { ...family.choices },
+      setting: [...actions.settingNow(family)],
+      with: family.found.family.optional.map(({ parts }) => !parts.some((id) => hidden.has(ids.get(id) ?? ''))),
+    }),
+  );
+  return made === null ? null : { ...made, name: plainName(model.shape.name) };
+}
+
+/** The program with its sliders as variables that the Customizer shows, beginning where the model stands. */
+export async function exportScad(): Promise<void> {
+  const made = await text();
+  if (made) download(`${made.name}.family.scad`, new Blob([made.scad], { type: 'text/plain' }));
+}
+
+/** One set a variation. OpenSCAD finds them by the program's name. */
+export async function exportSets(): Promise<void> {
+  const made = await text();
+  const json = JSON.stringify(made?.sets, null, 1);
+  if (made) download(`${made.name}.family.json`, new Blob([json], { type: 'application/json' }));
+}
