@@ -139,7 +139,7 @@ void extend_range(const Shape& shape, Program& program, std::size_t layer, doubl
   Layer& stretched = program.layers[layer];
   double& end = to > 0 ? stretched.parameter.max : stretched.parameter.min;
   const double old = end;
-  const Range possible = find_range(shape, program, layer, std::abs(to));
+  const Range possible = find_range(shape, program, layer, -std::abs(to), std::abs(to));
   Watch watch(shape, program, layer, [&](const std::string& id) { return held.count(id) > 0; });
   end = watch.reach(old, to > 0 ? std::max(old, possible.max) : std::min(old, possible.min));
   if (end != to) end = rounded(end);
