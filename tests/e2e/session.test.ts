@@ -224,12 +224,15 @@ describe('an edit by hand', () => {
     await page.evaluate((answer) => {
       const seen: unknown[] = [];
       Object.assign(globalThis, { seen });
-      const answered = async (_: string, parameters: object) => {
+      const client = parsel.client();
+      const asked = client.call.bind(client) as (...all: unknown[]) => Promise<unknown>;
+      const answered = async (method: string, parameters: object, ...rest: unknown[]) => {
+        if (method !== 'propagate') return asked(method, parameters, ...rest);
         seen.push((parameters as { edit: unknown }).edit);
         const trace = { steps: [], notes: [], stop: '' };
         return { result: { program: { ...answer, layers: answer.layers.slice(0, 1) }, trace }, buffers: [] };
       };
-      Object.assign(parsel.client(), { call: answered });
+      Object.assign(client, { call: answered });
     }, edits);
     await page.getByRole('button', { name: 'Edit by hand' }).click();
     await page.getByLabel('Part to edit').selectOption('seat');

@@ -10,7 +10,10 @@ import { change, document, run, setValue } from './session';
 const farthest = 16;
 const growth = 1.15;
 
-/** The slider value nearest to the range at which a measure reads `wanted`, beyond an end; null where there is none. */
+/**
+ * The slider value nearest to the range at which a measure reads `wanted`, beyond an end, or the farthest that is looked at
+ * where it only comes nearer; null where it does not.
+ */
 export function solveBeyond(entry: LayerEntry, measure: Measure, wanted: number): number | null {
   const { min, max } = entry.layer.parameter;
   const read = (x: number) => readLayer(entry, measure, [x])[0] ?? Number.NaN;
@@ -29,6 +32,7 @@ export function solveBeyond(entry: LayerEntry, measure: Measure, wanted: number)
       }
       if (Math.abs(next) > Math.abs(off)) break; // the other way
       [low, off] = [high, next];
+      if (Math.abs(low) >= farthest) found.push(sign * farthest);
     }
   }
   return found.sort((a, b) => Math.abs(a) - Math.abs(b))[0] ?? null;
