@@ -60,7 +60,10 @@ inline std::vector<Vec3> corners_at(const Shape& shape, const Evaluator& evaluat
   return all;
 }
 
-/// Least distance of the model under one edit, over its slider, from the one under another at 0.6 of its range upwards:
+/// Both were looked for on ± this; how far each slider then goes on is its own.
+inline constexpr double searched = 0.35;
+
+/// Least distance of the model under one edit, over its slider, from the one under another at 0.6 of `searched` upwards:
 /// both must do the same when the slider goes up. Normalised, infinite when the numbers of parts never agree or an edit cannot be propagated.
 inline double edit_distance(const Shape& shape, const EditRequest& edit, const EditRequest& truth) {
   const double infinite = std::numeric_limits<double>::infinity();
@@ -68,7 +71,7 @@ inline double edit_distance(const Shape& shape, const EditRequest& edit, const E
   if (!own.ok() || !right.ok()) return infinite;
   const Evaluator at(own->program, shape), aim_at(right->program, shape);
   const Parameter &range = own->program.layers[0].parameter, &aimed = right->program.layers[0].parameter;
-  const std::vector<Vec3> aim = corners_at(shape, aim_at, 0.6 * aimed.max);
+  const std::vector<Vec3> aim = corners_at(shape, aim_at, 0.6 * std::min(aimed.max, searched));
   const auto distance = [&](double x) {
     const std::vector<Vec3> here = corners_at(shape, at, x);
     if (here.size() != aim.size()) return infinite;

@@ -139,7 +139,7 @@ describe('a thousand parts', () => {
     await find.press('Enter');
     const found = await selected();
     expect(found.length).toBeGreaterThan(0);
-    expect(found.every((id) => /drawer_37/.test(id))).toBe(true);
+    expect(found.filter((id) => !/drawer_\d*37/.test(id))).toEqual([]);
     await find.fill('');
     await page.locator('.parts.long').evaluate((list) => list.scrollTo(0, 1e6));
     await expect.poll(() => page.locator('.part').last().getAttribute('aria-posinset')).toMatch(/^\d{3,}$/);

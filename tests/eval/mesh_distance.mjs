@@ -38,14 +38,17 @@ const farthest = (from, to) =>
 /** Hausdorff distance over boxes of the same label. */
 const difference = (a, b) => (a.length === b.length ? Math.max(farthest(a, b), farthest(b, a)) : Infinity);
 
+/** Both programs were looked for on ± this; how far each slider then goes on is its own. */
+const searched = 0.35;
+
 /**
- * Least distance of the model under a program, over its slider, from the one under the true program at 0.6 of its range.
+ * Least distance of the model under a program, over its slider, from the one under the true program at 0.6 of `searched`.
  * Both have one layer and are valid for the shape. Normalised; Infinity when the numbers of parts never agree.
  */
 export function meshDistance(shape, program, truth) {
   const checkedTruth = checkProgram(truth, shape).value;
   const { max, min } = truth.layers[0].parameter;
-  const aim = boxes(shape, checkedTruth, max >= -min ? 0.6 * max : 0.6 * min);
+  const aim = boxes(shape, checkedTruth, 0.6 * (max >= -min ? Math.min(max, searched) : Math.max(min, -searched)));
   const checked = checkProgram(program, shape).value;
   const { min: low, max: high } = program.layers[0].parameter;
   const at = (x) => difference(boxes(shape, checked, x), aim);
