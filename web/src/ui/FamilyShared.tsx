@@ -1,10 +1,11 @@
 // What the variations have in common, a line a class: each can be switched, and shows its faces while it is pointed at.
+import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import type { CadSource } from '../scene/load';
 import { models } from '../session/core';
 import { type Agreement, choicesFor, type SharedClass, sharedClasses } from '../session/family_shared';
 import type { FamilyState } from '../session/family_state';
-import { family as actions, pointedAt, task } from '../session/session';
+import { family as actions, pointedAt } from '../session/session';
 
 interface FamilySharedProps {
   readonly family: FamilyState;
@@ -46,6 +47,7 @@ export function FamilyShared({ family, cad, ids }: FamilySharedProps) {
 }
 
 function Line({ shared, ids }: { shared: SharedClass; ids: ReadonlyMap<string, string> }) {
+  const wanted = useSignal<boolean | null>(null); // until the core has answered
   const faces = shared.faces.flatMap(({ part, feature }) => {
     const id = ids.get(part);
     return id === undefined ? [] : [{ part: id, feature }];
@@ -64,11 +66,14 @@ function Line({ shared, ids }: { shared: SharedClass; ids: ReadonlyMap<string, s
       <label class="check">
         <input
           type="checkbox"
-          checked={shared.kept}
-          disabled={models.value === null || task.value !== null}
-          onChange={(event) =>
-            models.value && void actions.choose(models.value, choicesFor(shared, event.currentTarget.checked))
-          }
+          checked={wanted.value ?? shared.kept}
+          disabled={models.value === null}
+          onChange={async (event) => {
+            if (models.value === null) return;
+            wanted.value = event.currentTarget.checked;
+            await actions.choose(models.value, choicesFor(shared, event.currentTarget.checked));
+            wanted.value = null;
+          }}
         />
         <span>
           {shared.text}
