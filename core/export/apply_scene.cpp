@@ -106,7 +106,7 @@ void detach(File& file, Scene& scene, const std::set<std::size_t>& nodes) {
 
 std::string numbered_name(const File& file, const std::string& name) {
   NumberedName wanted = split_number(name);
-  if (wanted.digits == 0) wanted = {name + ".", 3, 0};
+  if (wanted.digits == 0) wanted = {name + "_", 1, 1};
   for (std::size_t n = 0; n < file.size("nodes"); ++n) {
     const NumberedName other = split_number(file.item("nodes", n).get("name").string().value_or(""));
     if (other.stem == wanted.stem && other.digits > 0) wanted.number = std::max(wanted.number, other.number);

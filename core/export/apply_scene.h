@@ -24,7 +24,7 @@ std::size_t add_beside(File& file, Scene& scene, std::size_t sibling, JsonText n
 /// Takes nodes out of their parents and scenes; they stay in `nodes`, so that no index shifts.
 void detach(File& file, Scene& scene, const std::set<std::size_t>& nodes);
 
-/// The name with its number raised above all of its kind: "slat" → "slat.001", "slat_2" → "slat_3".
+/// The name with its number raised above all of its kind: "slat" → "slat_2", "slat_2" → "slat_3".
 std::string numbered_name(const File& file, const std::string& name);
 
 }  // namespace parsel::gltf

@@ -83,8 +83,8 @@ TEST_CASE("apply: new instances are nodes that share the mesh") {
   const ordered_json json = json_of(out);
   REQUIRE(json["nodes"].size() == 7);
   CHECK(json["nodes"][0]["children"] == ordered_json({1, 2, 3, 4, 5, 6}));
-  CHECK(json["nodes"][5]["name"] == "slat.001");
-  CHECK(json["nodes"][6]["name"] == "slat.002");
+  CHECK(json["nodes"][5]["name"] == "slat_2");
+  CHECK(json["nodes"][6]["name"] == "slat_3");
   CHECK(json["nodes"][5]["extras"]["k"] == 0);
   CHECK(json["nodes"][6]["mesh"] == json["nodes"][1]["mesh"]);
   CHECK_FALSE(json["nodes"][6].contains("rotation"));

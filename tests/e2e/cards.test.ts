@@ -119,7 +119,7 @@ describe('a count', () => {
     await page.getByRole('button', { name: 'Undo: change edit' }).click();
     expect(await anchor()).toBe('fit');
     await menu('two more slats', 'Change…');
-    await page.getByLabel('Change the edit').getByText('Spacing', { exact: true }).click();
+    await page.getByLabel('Change the edit').getByRole('radio', { name: 'Spacing' }).check({ force: true });
     await page.getByLabel('Change the edit').getByRole('button', { name: 'Apply' }).click();
     await page.getByRole('button', { name: 'Undo: change edit' }).waitFor({ timeout: 60_000 });
     expect(await anchor()).toBeNull();

@@ -59,7 +59,7 @@ const leg = (x: number, z: number): readonly [Vec, Vec] => [
   [0.05, 0.7, 0.05],
 ];
 
-/** A table with a knob of 1 cm on its top. */
+/** A table with a knob of 8 mm on its top. */
 export const tableInOnePiece = oneMesh([
   [
     [0, 0.72, 0],
@@ -70,7 +70,7 @@ export const tableInOnePiece = oneMesh([
   leg(-0.55, 0.35),
   leg(0.55, 0.35),
   [
-    [0, 0.745, 0],
-    [0.01, 0.01, 0.01],
+    [0, 0.744, 0],
+    [0.008, 0.008, 0.008],
   ],
 ]);

@@ -58,7 +58,10 @@ describe('a label', () => {
     await giveLabel(middle?.name ?? '', 'panel');
     await page.locator('.card.off .unfit').waitFor();
     expect(await page.locator('.card').count()).toBe(3);
-    await page.getByRole('status').filter({ hasText: /no longer fits/ }).waitFor();
+    await page
+      .getByRole('status')
+      .filter({ hasText: /no longer fits/ })
+      .waitFor();
     await page.getByRole('button', { name: 'Reset' }).click();
     await expect.poll(() => page.locator('.unfit').count()).toBe(0);
     expect(await ids()).toEqual(shape.parts.map(({ id }) => id));

@@ -8,7 +8,8 @@
 //      paper    $PARSEL_DATA/paper: part of the paper's own shapes and requests; nothing of it stands here but the replies,
 //               by the hash of their prompt
 // --json FILE writes what is printed. A request is met when all of its predicates hold (predicates.mjs) with the first
-// slider at 0.2, or at its end when that comes first. Variants: all replies voted; the first alone; the voted seed without
+// slider at 0.2, or at its end when that comes first; numbers of instances are counted at the end, as a count takes whole
+// steps. Variants: all replies voted; the first alone; the voted seed without
 // hints and validity; and, where the folder has it, somebody else's reading (edits.json), which tells a wrong reading from
 // a wrong search. replies/SET.json: {model, date, replies: {hash: [text]}}. Needs the WebAssembly build.
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -71,16 +72,20 @@ const kept = existsSync(repliesFile)
   : { model: null, date: null, replies: {} };
 const repliesTo = ({ hash }) => (kept.replies[hash] ?? []).filter(Boolean);
 
-/** The edited file with the first slider at 0.2, or its end; null when there is no program. */
+/** The edited file with the first slider at 0.2 and at its end; null when there is no program. */
 function edited(edit) {
   if (edit === null) return null;
   try {
     const { program } = core('propagate', { edit }).result;
-    const at = program.layers.map(({ parameter }, i) => (i === 0 ? Math.min(0.2, parameter.max) : 0));
+    const { max } = program.layers[0].parameter;
+    const [glb, atEnd] = [Math.min(0.2, max), max].map((value) => {
+      const at = program.layers.map((_, i) => (i === 0 ? value : 0));
+      return core('apply', { program, values: at }).buffers[0];
+    });
     const reports = program.layers.flatMap(({ relations }) => relations);
     const held = reports.filter(({ status }) => status === 'held').length;
     const asked = reports.filter(({ status }) => status !== 'disabled').length;
-    return { glb: core('apply', { program, values: at }).buffers[0], held, asked };
+    return { glb, atEnd, held, asked };
   } catch (error) {
     return { refused: error.message };
   }
@@ -90,8 +95,11 @@ async function verdict(edit, predicates, rest) {
   const result = edited(edit);
   if (result === null) return { good: 0, of: predicates.length, why: 'read as unclear, or not at all' };
   if (result.refused) return { good: 0, of: predicates.length, why: result.refused };
-  const now = await readNodes(result.glb);
-  const judged = predicates.map((predicate) => ({ predicate, ...judge(predicate, rest, now) }));
+  const [now, end] = [await readNodes(result.glb), await readNodes(result.atEnd)];
+  const counts = (predicate) => (predicate.any_of?.flat() ?? [predicate]).some((one) => 'group' in one);
+  const judged = predicates.map((predicate) => {
+    return { predicate, ...judge(predicate, rest, counts(predicate) ? end : now) };
+  });
   const wrong = judged.filter(({ ok }) => !ok);
   return {
     good: judged.length - wrong.length,

@@ -28,7 +28,13 @@ const smallest = { change: 0.01, rest: 0.005, gap: 0.02, mirror: 0.015 };
 export async function readNodes(glb) {
   const document = await new NodeIO().registerExtensions(ALL_EXTENSIONS).readBinary(new Uint8Array(glb));
   const found = new Map();
+  const shown = new Set();
+  document
+    .getRoot()
+    .getDefaultScene()
+    ?.traverse((node) => shown.add(node));
   for (const [index, node] of document.getRoot().listNodes().entries()) {
+    if (!shown.has(node)) continue; // an instance that a count took away
     const m = node.getWorldMatrix();
     const points = [];
     for (const primitive of node.getMesh()?.listPrimitives() ?? []) {

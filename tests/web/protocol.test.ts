@@ -81,15 +81,15 @@ describe('the boundary between the page and the core', () => {
     const { program } = v.parse(methodSchemas.propagate_clean.result, resultOf(found));
     const rangeOf = (one: unknown) =>
       (one as { layers: { parameter: { max: number } }[] }).layers[0]?.parameter.max ?? 0;
-    const extended = invoke('extend', { program, layer: 0, to: 1 }).message;
+    const extended = invoke('extend', { program, layer: 0, to: 2 }).message;
     expect(rangeOf(v.parse(methodSchemas.extend.result, resultOf(extended)).program)).toBeGreaterThan(rangeOf(program));
   });
 
   it('composes layers onto each other and judges them', () => {
     const { message, buffers } = invoke('gallery', {});
     const { models } = (message as { result: { models: { id: string; requests: { edit: unknown }[] }[] } }).result;
-    const index = models.findIndex((model) => model.id === 'gazebo');
-    invoke('open', { name: 'gazebo', external: [] }, [buffers[index] as Uint8Array]);
+    const index = models.findIndex((model) => model.id === 'bookcase');
+    invoke('open', { name: 'bookcase', external: [] }, [buffers[index] as Uint8Array]);
     const [first, second] = [0, 0].map((number, i) => {
       const { message } = invoke('propagate', { edit: models[index]?.requests[number]?.edit });
       const text = JSON.stringify((message as { result: { program: unknown } }).result.program);
