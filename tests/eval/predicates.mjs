@@ -122,7 +122,7 @@ export function judge(predicate, rest, now) {
   }
   if ('group' in predicate) {
     const count = (nodes) =>
-      [...nodes.values()].filter(({ name }) => name.replace(/[ _]\d+$/, '') === predicate.group).length;
+      [...nodes.values()].filter(({ name }) => name.replace(/[ _.]\d+$/, '') === predicate.group).length;
     const [before, after] = [count(rest), count(now)];
     return { ok: predicate.change === 'increase' ? after > before : after < before, why: `${before} -> ${after}` };
   }
