@@ -78,7 +78,7 @@ describe('a CAD program', () => {
     await accident.hover();
     expect((await stillPicture(page)).equals(plain)).toBe(false);
     await accident.check();
-    await expect.poll(() => page.getByRole('status').first().textContent()).toMatch(/^\d+ sliders/);
+    await expect.poll(() => page.locator('.status-line').getByRole('status').textContent()).toMatch(/^\d+ sliders/);
     const after = await sliders.count();
     expect(after).toBeLessThanOrEqual(before);
     await page.getByRole('button', { name: /^Undo/ }).click();

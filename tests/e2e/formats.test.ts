@@ -79,7 +79,7 @@ describe('a file of another format', () => {
     expect(await labels()).toEqual(['top', 'leg']);
     expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('table');
     await expect
-      .poll(() => page.getByRole('status').first().textContent())
+      .poll(() => page.locator('.status-line').getByRole('status').textContent())
       .toBe('The file was made a GLB; what you export will be one, no OBJ.');
     const written = await readFile(await download(page, 'Edited model'));
     expect(written.subarray(0, 4).toString()).toBe('glTF');
@@ -91,7 +91,7 @@ describe('a file of another format', () => {
     await drop(page, { 'table.obj': table['table.obj'], 'table.mtl': table['table.mtl'] });
     await shown();
     await expect
-      .poll(() => page.getByRole('status').first().textContent())
+      .poll(() => page.locator('.status-line').getByRole('status').textContent())
       .toMatch(/Not among the files: textures\/wood\.png; drop them together with the model\./);
     expect(complaints).toEqual([]);
   });
@@ -166,9 +166,11 @@ describe('a file of another format', () => {
   it('can be cancelled while it is read', async () => {
     await page.route('**/convert.worker*.js', () => {}); // never answers
     await drop(page, { 'two.stl': pyramids });
-    await expect.poll(() => page.getByRole('status').first().textContent()).toMatch(/Reading the model · reading STL/);
+    await expect
+      .poll(() => page.locator('.status-line').getByRole('status').textContent())
+      .toMatch(/Reading the model · reading STL/);
     await page.getByRole('button', { name: 'Cancel' }).click();
-    await expect.poll(() => page.getByRole('status').first().textContent()).toBe('');
+    await expect.poll(() => page.locator('.status-line').getByRole('status').textContent()).toBe('');
     expect(await labels()).toEqual([]);
     expect(complaints).toEqual([]);
   });

@@ -62,7 +62,7 @@ describe('a newer version', () => {
   }
   const isNewer = (page: Page) => page.locator('meta[name=build]').count();
   const notice = (page: Page) =>
-    expect.poll(() => page.getByRole('status').first().textContent()).toMatch(/new version is ready/);
+    expect.poll(() => page.locator('.status-line').getByRole('status').textContent()).toMatch(/new version is ready/);
 
   it('is announced in every page, and comes with the work as it is, only where it is asked for', {
     timeout: 240_000,
@@ -97,7 +97,9 @@ describe('a newer version', () => {
       await expect.poll(() => isNewer(page)).toBe(1);
       await page.locator('.card').nth(2).waitFor();
       expect(await corners(page)).toEqual(state);
-      await expect.poll(() => page.getByRole('status').first().textContent()).not.toMatch(/new version/);
+      await expect
+        .poll(() => page.locator('.status-line').getByRole('status').textContent())
+        .not.toMatch(/new version/);
     }
     expect(complaints).toEqual([]);
     await one.context().close();

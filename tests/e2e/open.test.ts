@@ -126,7 +126,7 @@ describe('opening', () => {
     await pick(page, [file('stool.glb', await compress(stool, how))]);
     await opened();
     await expect
-      .poll(() => page.getByRole('status').first().textContent())
+      .poll(() => page.locator('.status-line').getByRole('status').textContent())
       .toMatch(/came compressed with (Draco|Meshopt); what you export will not be/);
   });
 });
@@ -184,10 +184,10 @@ describe('what cannot be opened', () => {
     await page.route('**/draco_decoder*.wasm', () => {}); // never answers
     await pick(page, [file('slow.glb', await compress(stool, 'Draco'))]);
     await expect
-      .poll(() => page.getByRole('status').first().textContent())
+      .poll(() => page.locator('.status-line').getByRole('status').textContent())
       .toMatch(/Reading the model · decompressing Draco/);
     await page.getByRole('button', { name: 'Cancel' }).click();
-    await expect.poll(() => page.getByRole('status').first().textContent()).toBe('');
+    await expect.poll(() => page.locator('.status-line').getByRole('status').textContent()).toBe('');
     expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('stool');
     expect(complaints).toEqual([]);
   });

@@ -65,7 +65,7 @@ describe('the page', () => {
     const page = await context.newPage();
     await page.goto(site.url);
     await expect
-      .poll(() => page.getByRole('status').first().textContent())
+      .poll(() => page.locator('.status-line').getByRole('status').textContent())
       .toMatch(/could not be loaded .* Reload the page/);
     await context.close();
   });

@@ -62,7 +62,7 @@ describe('a label', () => {
       .getByRole('status')
       .filter({ hasText: /no longer fits/ })
       .waitFor();
-    await page.getByRole('button', { name: 'Reset' }).click();
+    await page.getByRole('button', { name: 'Reset', exact: true }).click();
     await expect.poll(() => page.locator('.unfit').count()).toBe(0);
     expect(await ids()).toEqual(shape.parts.map(({ id }) => id));
     expect(complaints).toEqual([]);

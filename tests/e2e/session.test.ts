@@ -51,7 +51,7 @@ describe('a slider', () => {
     await seatWidth().fill('999');
     await seatWidth().press('Enter');
     await page.getByText('The slider goes no further.').waitFor();
-    expect(await seatWidth().inputValue()).toBe('3 m'); // six times as wide: amounts reach no further
+    expect(await seatWidth().inputValue()).toBe('300 cm'); // six times as wide: amounts reach no further
     expect(await slider.getAttribute('max')).toBe('5');
     expect(complaints).toEqual([]);
   });

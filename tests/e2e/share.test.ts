@@ -56,7 +56,9 @@ describe('a link', () => {
     expect(text.length).toBeLessThan(2048);
     process.stdout.write(`a link for three layers: ${text.length} bytes\n`);
     const fresh = await openLink(new URL(text).hash);
-    await expect.poll(() => fresh.page.getByRole('status').first().textContent()).toMatch(/made on “stool”/);
+    await expect
+      .poll(() => fresh.page.locator('.status-line').getByRole('status').textContent())
+      .toMatch(/made on “stool”/);
 
     const other = toGlb(stoolGltf((name) => `${name}x`));
     await pick(fresh.page, file(other));
@@ -82,7 +84,7 @@ describe('a link', () => {
   it('as a viewer has sliders and nothing else', async () => {
     const text = await link();
     const viewer = await openLink(new URL(text).hash, '?embed&debug');
-    await expect.poll(() => viewer.page.getByRole('status').first().textContent()).toMatch(/made on/);
+    await expect.poll(() => viewer.page.locator('.status-line').getByRole('status').textContent()).toMatch(/made on/);
     expect(await viewer.page.locator('.bar, .side').count()).toBe(0);
     await viewer.page.context().close();
   });
@@ -207,7 +209,9 @@ describe('files', () => {
     const zip = zipSync({ 'a/stool.glb': stool, 'a/a.parsel.json': damaged });
     await pick(fresh.page, [{ name: 'a.zip', mimeType: 'application/zip', buffer: Buffer.from(zip) }]);
     await expect.poll(() => fresh.page.locator('.card').count()).toBe(2);
-    await expect.poll(() => fresh.page.getByRole('status').first().textContent()).toMatch(/damaged.*left out: edit 2/);
+    await expect
+      .poll(() => fresh.page.locator('.status-line').getByRole('status').textContent())
+      .toMatch(/damaged.*left out: edit 2/);
     await fresh.page.context().close();
   });
 
