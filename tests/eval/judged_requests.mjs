@@ -1,8 +1,8 @@
 // Requests with predicates that were written down beforehand: what share of them is met, and where the others fail.
 //
-//   node tests/eval/pairs.mjs SET                            measures the recorded replies
-//   node tests/eval/pairs.mjs SET --write DIR [--votes 3]    writes what has no reply as DIR/<hash>.<vote>.prompt.md
-//   node tests/eval/pairs.mjs SET --read DIR --model NAME    keeps DIR/<hash>.<vote>.reply.md, unedited
+//   node tests/eval/judged_requests.mjs SET                            measures the recorded replies
+//   node tests/eval/judged_requests.mjs SET --write DIR [--votes 3]    writes what has no reply as DIR/<hash>.<vote>.prompt.md
+//   node tests/eval/judged_requests.mjs SET --read DIR --model NAME    keeps DIR/<hash>.<vote>.reply.md, unedited
 //
 // SET: harder   harder.json, on models of the gallery and of $PARSEL_DATA/furniture
 //      paper    $PARSEL_DATA/paper: part of the paper's own shapes and requests; nothing of it stands here but the replies,
