@@ -74,10 +74,10 @@ TEST_CASE("a slider ends where a joint that holds begins to come apart") {
   CHECK(report_of(found.relations, "a1").proof == Proof::certified);
 
   SUBCASE("what is exact goes all the way") {
-    const SliderReach exact = reach(shape, raised(shape, "x1"), -2, 2);
-    CHECK(exact.range.min == -2);
-    CHECK(exact.range.max == 2);
-    CHECK(exact.range.max_reason == "limit");
+    const SliderReach all_the_way = reach(shape, raised(shape, "x1"), -2, 2);
+    CHECK(all_the_way.range.min == -2);
+    CHECK(all_the_way.range.max == 2);
+    CHECK(all_the_way.range.max_reason == "limit");
   }
   SUBCASE("what is off by more already goes no farther where it would get worse") {
     // 0.035 at 0.35, which two parts that move may be off by; it gets no worse downwards.
