@@ -52,7 +52,7 @@ describe('a slider', () => {
     await seatWidth().press('Enter');
     await page.getByText('The slider goes no further.').waitFor();
     expect(await seatWidth().inputValue()).toBe('300 cm'); // six times as wide: amounts reach no further
-    expect(await slider.getAttribute('max')).toBe('5');
+    expect(Number(await slider.getAttribute('max'))).toBeCloseTo(5, 3);
     expect(complaints).toEqual([]);
   });
 

@@ -25,16 +25,27 @@ export function keepOffer(offer: Offer, value: number): number | null {
   return key;
 }
 
-/** Looks whenever a fresh model of one's own is there; answers how to stop. */
+/** A model that has been there for so long (ms) is one that somebody looks at: tabs that a browser brings back come first. */
+const settled = 1500;
+
+/** Looks whenever a fresh model of one's own is there and nobody has begun to work on it; answers how to stop. */
 export function lookOnOpening(): () => void {
   let seen = document.peek().model?.files;
-  return effect(() => {
-    const { model, layers } = document.value;
+  let waiting: ReturnType<typeof setTimeout> | undefined;
+  const lookIfFresh = () => {
+    const { model, layers } = document.peek();
+    if (model !== null && model.source.kind !== 'gallery' && layers.length === 0) void look(model);
+  };
+  const end = effect(() => {
+    const { model } = document.value;
     if (models.value === null || model?.files === seen) return;
     seen = model?.files;
-    untracked(() => {
-      if (model !== null && model.source.kind !== 'gallery' && layers.length === 0) void look(model);
-      else stop();
-    });
+    clearTimeout(waiting);
+    untracked(stop);
+    waiting = setTimeout(lookIfFresh, settled);
   });
+  return () => {
+    clearTimeout(waiting);
+    end();
+  };
 }
