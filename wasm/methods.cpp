@@ -52,6 +52,15 @@ Result<std::string> text_parameter(const Input& input, const std::string& name) 
   return found->get<std::string>();
 }
 
+/// program: parsel/program v1 that fits the open model.
+Result<Program> program_of(const Input& input) {
+  if (!model) return no_model();
+  Result<Program> program = program_from_json(input.parameters.value("program", json()));
+  if (!program.ok()) return program;
+  if (const Status valid = validate(*program, model->shape); !valid.ok()) return valid.error();
+  return program;
+}
+
 Result<Output> version(const Input&) {
   return Output{{{"version", PARSEL_VERSION}}, {}};
 }
@@ -169,25 +178,14 @@ Result<Output> propagate_clean(const Input& input) {
 
 /// program: parsel/program v1; layer: an index; to: a value of its parameter.
 Result<Output> extend(const Input& input) {
-  if (!model) return no_model();
-  Result<Program> program = program_from_json(input.parameters.value("program", json()));
+  Result<Program> program = program_of(input);
   if (!program.ok()) return program.error();
-  if (const Status valid = validate(*program, model->shape); !valid.ok()) return valid.error();
   const json layer = input.parameters.value("layer", json()), to = input.parameters.value("to", json());
   if (!layer.is_number_unsigned() || layer.get<std::size_t>() >= program->layers.size())
     return wrong_parameter("layer", "the index of a layer");
   if (!to.is_number()) return wrong_parameter("to", "a number");
   extend_range(model->shape, *program, layer.get<std::size_t>(), to.get<double>());
   return Output{{{"program", to_json(*program)}}, {}};
-}
-
-/// program: parsel/program v1 that fits the open model.
-Result<Program> program_of(const Input& input) {
-  if (!model) return no_model();
-  Result<Program> program = program_from_json(input.parameters.value("program", json()));
-  if (!program.ok()) return program;
-  if (const Status valid = validate(*program, model->shape); !valid.ok()) return valid.error();
-  return program;
 }
 
 /// See program_of(); first: the number of the first layer that is composed onto those before it.
@@ -209,10 +207,8 @@ Result<Output> judge(const Input& input) {
 /// program: parsel/program v1; values: one a layer; animate: a parameter's name, or morph: true, for a morph target of
 /// every slider; only: ids of parts.
 Result<Output> apply(const Input& input) {
-  if (!model) return no_model();
-  const Result<Program> program = program_from_json(input.parameters.value("program", json()));
+  const Result<Program> program = program_of(input);
   if (!program.ok()) return program.error();
-  if (const Status valid = validate(*program, model->shape); !valid.ok()) return valid.error();
   std::vector<double> values;
   for (const json& value : input.parameters.value("values", json::array())) {
     if (!value.is_number()) return wrong_parameter("values", "a list of numbers");
@@ -255,10 +251,8 @@ Result<Output> apply(const Input& input) {
 
 /// program: parsel/program v1; count; seed: a number that a double holds exactly.
 Result<Output> siblings(const Input& input) {
-  if (!model) return no_model();
-  const Result<Program> program = program_from_json(input.parameters.value("program", json()));
+  const Result<Program> program = program_of(input);
   if (!program.ok()) return program.error();
-  if (const Status valid = validate(*program, model->shape); !valid.ok()) return valid.error();
   const json count = input.parameters.value("count", json()), seed = input.parameters.value("seed", json());
   if (!count.is_number_integer()) return wrong_parameter("count", "a whole number");
   if (!seed.is_number_unsigned()) return wrong_parameter("seed", "a whole number");

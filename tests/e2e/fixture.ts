@@ -131,6 +131,16 @@ export function stoolGltf(rename: (name: string) => string = (name) => name): Gl
   };
 }
 
+/** Corners of each face of a box, by the signs of the box's corners (bit 0: x, 1: y, 2: z), counter-clockwise from outside. */
+export const boxFaces = [
+  [0, 2, 3, 1],
+  [4, 5, 7, 6],
+  [0, 1, 5, 4],
+  [2, 6, 7, 3],
+  [0, 4, 6, 2],
+  [1, 3, 7, 5],
+] as const;
+
 export function toGlb({ json, binary }: Gltf): Buffer {
   const text = Buffer.from(JSON.stringify(json));
   const padded = Buffer.concat([text, Buffer.alloc((4 - (text.length % 4)) % 4, 0x20)]);

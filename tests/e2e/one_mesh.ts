@@ -1,17 +1,7 @@
 // A model in one piece: a table of five boxes in one mesh, which nobody has named.
-import { toGlb } from './fixture';
+import { boxFaces, toGlb } from './fixture';
 
 type Vec = readonly [number, number, number];
-
-/** Corners of a face, by the signs of the box's corners (bit 0: x, 1: y, 2: z), counter-clockwise from outside. */
-const faces = [
-  [0, 2, 3, 1],
-  [4, 5, 7, 6],
-  [0, 1, 5, 4],
-  [2, 6, 7, 3],
-  [0, 4, 6, 2],
-  [1, 3, 7, 5],
-] as const;
 
 /** @param boxes centre and full size of each, in metres */
 export function oneMesh(boxes: readonly (readonly [Vec, Vec])[]): Buffer {
@@ -22,7 +12,7 @@ export function oneMesh(boxes: readonly (readonly [Vec, Vec])[]): Buffer {
     for (let k = 0; k < 8; k++) {
       for (let i = 0; i < 3; i++) positions.push((centre[i] ?? 0) + ((k >> i) & 1 ? 0.5 : -0.5) * (size[i] ?? 0));
     }
-    for (const [a, b, c, d] of faces) indices.push(...[a, b, c, a, c, d].map((k) => first + k));
+    for (const [a, b, c, d] of boxFaces) indices.push(...[a, b, c, a, c, d].map((k) => first + k));
   }
   const bound = (pick: (...values: number[]) => number) =>
     [0, 1, 2].map((i) => pick(...positions.filter((_, k) => k % 3 === i).map(Math.fround)));

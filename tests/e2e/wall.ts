@@ -1,21 +1,11 @@
 // A wall of drawers: as many parts as wanted, each under a name of its own, each touching its neighbours.
-import { toGlb } from './fixture';
+import { boxFaces, toGlb } from './fixture';
 
 const cube = [-1, 1].flatMap((z) => [-1, 1].flatMap((y) => [-1, 1].map((x) => [x, y, z] as const)));
-/** Corner indices of each side, seen from outside. */
-const sides = [
-  [0, 2, 3, 1],
-  [4, 5, 7, 6],
-  [0, 1, 5, 4],
-  [2, 6, 7, 3],
-  [0, 4, 6, 2],
-  [1, 3, 7, 5],
-];
-
 /** @param columns,rows of drawers, of 20 × 10 × 30 cm each; they are called "drawer 1a", "drawer 2a", … */
 export function wall(columns: number, rows: number): Buffer {
   const corners = Float32Array.from(cube.flatMap(([x, y, z]) => [x / 2, y / 2, z / 2]));
-  const indices = Uint16Array.from(sides.flatMap(([a = 0, b = 0, c = 0, d = 0]) => [a, b, c, a, c, d]));
+  const indices = Uint16Array.from(boxFaces.flatMap(([a, b, c, d]) => [a, b, c, a, c, d]));
   const binary = Buffer.concat([Buffer.from(corners.buffer), Buffer.from(indices.buffer)]);
   const nodes = Array.from({ length: columns * rows }, (_, i) => ({
     name: `drawer ${i + 1}a`,

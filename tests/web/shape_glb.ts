@@ -1,16 +1,9 @@
 // A GLB whose meshes are the hexahedra of a shape: a model that is known to the last corner.
 import type { CageShape, Vec3 } from '../../web/src/program/types';
-import { toGlb } from '../e2e/fixture';
+import { boxFaces, toGlb } from '../e2e/fixture';
 
 /** The two triangles of each face, by corners. */
-const faces = [
-  [0, 2, 3, 1],
-  [4, 5, 7, 6],
-  [0, 1, 5, 4],
-  [2, 6, 7, 3],
-  [0, 4, 6, 2],
-  [1, 3, 7, 5],
-].flatMap(([a = 0, b = 0, c = 0, d = 0]) => [a, b, c, a, c, d]);
+const faces = boxFaces.flatMap(([a, b, c, d]) => [a, b, c, a, c, d]);
 
 /** Every second node is moved and scaled, with its mesh taken back by as much; all hang below one more node. */
 const place = (node: number) =>
