@@ -66,6 +66,17 @@ Status write_file(const std::string& path, std::string_view bytes) {
   return success();
 }
 
+Status write_whole(const std::filesystem::path& path, std::string_view bytes) {
+  const std::string beside = path.string() + ".part";
+  const Status written = write_file(beside, bytes);
+  std::error_code fault;
+  if (written) std::filesystem::rename(beside, path, fault);
+  if (written && !fault) return success();
+  std::error_code ignored;
+  std::filesystem::remove(beside, ignored);
+  return written ? Status(Error{"cli", path.string(), "the file cannot be written", fault.message()}) : written;
+}
+
 int write_json(const Arguments& arguments, const nlohmann::json& json) {
   // Names are untrusted bytes: what is not UTF-8 is replaced, never thrown about.
   const std::string text = json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
