@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/base/json.h"
 #include "core/check/check.h"
@@ -38,7 +40,14 @@ class Work {
 
   /// The result; files are in the folder. Error: nothing of them is.
   Result<json> run() {
-    Status done = all();
+    Status done = success();
+    try {
+      done = all();
+    } catch (const std::bad_alloc&) {
+      done = Error{"cli/job", job_.model, "there is not enough memory for this", "give it more, or simplify the model"};
+    } catch (const std::exception& error) {
+      done = Error{"cli/job", job_.model, std::string("internal error: ") + error.what(), "please report it"};
+    }
     if (done) return std::move(result_);
     std::error_code ignored;
     for (const std::string& file : files_) fs::remove(folder_ / file, ignored);
@@ -85,6 +94,10 @@ class Work {
       prove_anew(shape, program_);
       if (const Status ready = readable(program_, shape); !ready) return ready;
     }
+    // What is checked and applied is what is written, to the last digit.
+    Result<Program> written = program_from_json(to_json(program_));
+    if (!written) return written.error();
+    program_ = std::move(*written);
     result_["layers"] = json::array();
     for (const Layer& layer : program_.layers) {
       const auto reported = [&](RelationStatus status) {
@@ -223,8 +236,6 @@ int run(const Arguments& arguments) {
   const std::string& path = arguments.positional.front();
   const Result<json> given = read_json(path);
   if (!given) return refuse(given.error());
-  const Result<Job> job = job_from_json(*given);
-  if (!job) return refuse(within(job.error(), path));
   const fs::path folder = arguments.option("-o");
   std::error_code fault;
   fs::create_directories(folder, fault);
@@ -232,10 +243,11 @@ int run(const Arguments& arguments) {
     return refuse({"cli", "-o " + folder.string(), "the folder cannot be made", "name one that can be written to"});
   }
   const fs::path from = arguments.has("--from") ? fs::path(arguments.option("--from")) : fs::path(path).parent_path();
-  Result<json> result = Work(*job, from, folder).run();
-  json line = result ? std::move(*result) : json{{"format", "parsel/result"}, {"version", 1}};
-  if (!job->id.empty()) line["id"] = job->id;
-  line["model"] = job->model;
+  const Result<Job> job = job_from_json(*given);
+  Result<json> result = job ? Work(*job, from, folder).run() : Result<json>(job.error());
+  json line = result ? *result : json{{"format", "parsel/result"}, {"version", 1}};
+  if (job && !job->id.empty()) line["id"] = job->id;
+  if (job) line["model"] = job->model;
   if (!result) {
     const Error& error = result.error();
     line["error"] = {{"stage", error.stage}, {"place", error.place}, {"cause", error.cause}, {"fix", error.fix}};
@@ -244,7 +256,7 @@ int run(const Arguments& arguments) {
   if (const Status written = write_whole(folder / "result.json", text); !written) return refuse(written.error());
   std::cout << text;
   if (!std::cout.flush()) return exit_refused;
-  return result ? exit_done : refuse(result.error());
+  return result ? exit_done : refuse(within(result.error(), path));
 }
 
 }  // namespace
