@@ -94,11 +94,11 @@ export async function throughQueue(batch: Batch, url: string): Promise<void> {
     }
   } finally {
     interrupt.release();
-    await Promise.race([queue.close(), wait(2000)]).catch(() => {});
+    await Promise.race([queue.close(), wait(1000)]).catch(() => {});
+    connected.disconnect();
   }
   if (interrupt.asked && remaining.size > 0) {
     progress.tell(`${remaining.size} jobs stay in the queue; the same command with --resume waits for them again.`);
-    setTimeout(() => process.exit(), 3000).unref(); // a connection that waits for Redis holds nobody up
   }
 }
 

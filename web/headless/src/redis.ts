@@ -77,6 +77,8 @@ async function packages(): Promise<Packages> {
 export interface Connected extends Packages {
   /** For each Queue or Worker one of its own. It waits for a Redis that goes away, and goes on when it is back. */
   connection(): Redis;
+  /** Ends them all; what is still asked of them is dropped. */
+  disconnect(): void;
 }
 
 /** @throws Refusal when the packages or the Redis are not there */
@@ -109,13 +111,18 @@ export async function connect(url: string): Promise<Connected> {
   } finally {
     probe.disconnect();
   }
-  const connection = () => {
-    const redis = new all.Redis(url, {
-      maxRetriesPerRequest: null,
-      retryStrategy: (n: number) => Math.min(n * 100, 2000),
-    });
-    redis.on('error', () => {}); // it tries again; whoever uses it is told by the queue
-    return redis;
+  const connections: Redis[] = [];
+  return {
+    ...all,
+    connection() {
+      const again = (times: number) => Math.min(times * 100, 2000); // ms
+      const redis = new all.Redis(url, { maxRetriesPerRequest: null, retryStrategy: again });
+      redis.on('error', () => {}); // it tries again; whoever uses it is told by the queue
+      connections.push(redis);
+      return redis;
+    },
+    disconnect() {
+      for (const redis of connections) redis.disconnect();
+    },
   };
-  return { ...all, connection };
 }

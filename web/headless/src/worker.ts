@@ -20,7 +20,7 @@ async function run(options: Options): Promise<number> {
   const workers = workersOf(options);
   const stalled = wholeOf(options, '--stalled', 30, 1, 3600) * 1000;
   const rate = wholeOf(options, '--rate', 0, 1, 100_000);
-  const { Worker, connection } = await connect(url);
+  const { Worker, connection, disconnect } = await connect(url);
 
   const pool = new Pool();
   const progress = new Progress(null);
@@ -69,6 +69,7 @@ async function run(options: Options): Promise<number> {
       },
     );
   });
+  disconnect();
   pool.close();
   progress.end();
   return 0;
