@@ -4,6 +4,7 @@ import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
 import { withExtras } from '../share/extras';
 import { lostWords, type Saved, type Work } from '../share/saved';
 import { converted } from './convert';
+import { firstCuts, isCut } from './cuts';
 import { decompressed } from './decompress';
 import {
   type Document,
@@ -61,7 +62,7 @@ interface Opened {
   readonly work: Work | null;
   /** Of a CAD program. */
   readonly family: FamilySource | null;
-  /** A sentence on sliders in the file that are left out. */
+  /** A sentence on sliders in the file that are left out, or on cuts that are not drawn. */
   readonly refused: string | null;
 }
 
@@ -88,9 +89,11 @@ async function abstract(
     await prepare(files);
     options.signal.throwIfAborted();
     const model = { files, source, shape, labels };
-    if (given !== null) return { model, work: given, family, refused: null };
+    if (isCut(files)) options.onProgress({ step: 'cutting parts', done: 0, total: 1 });
+    const uncut = await firstCuts(model, options.signal);
+    if (given !== null) return { model, work: given, family, refused: uncut };
     const own = misfits === null ? (found?.work ?? null) : null;
-    return { model, work: own, family, refused: misfits ?? taken.refused };
+    return { model, work: own, family, refused: misfits ?? taken.refused ?? uncut };
   });
 }
 
