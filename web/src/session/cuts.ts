@@ -3,8 +3,9 @@
 import type { Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
 import type { CadProgram } from '../solid/cad';
-import { type State, stepsOf } from '../solid/cut';
+import type { State } from '../solid/cut';
 import type { Box, LocalCut } from '../solid/cut_model';
+import { stepsOf } from '../solid/steps';
 import type { CutOpen, CutReply, CutRequest } from '../worker/cut.worker';
 import { watched } from '../worker/watch';
 import type { Document, OpenModel } from './document';

@@ -1,8 +1,8 @@
-// What differences and intersections of a CAD program leave of each part that adds material. A union may be cut piece by
-// piece, (A ∪ B) − C = (A − C) ∪ (B − C), so that parts stay parts: they keep their names, colours and sliders.
+// What differences and intersections of a CAD program leave of each part that adds material.
 import type { Manifold, ManifoldToplevel } from 'manifold-3d/manifold';
 import { aligned } from './align';
 import { type CadProgram, type CadTree, meshOf, millimetresOf, withValues } from './cad';
+import { stepsOf } from './steps';
 import type { Triangles } from './types';
 import { boundsOf, type Welded, weld } from './weld';
 
@@ -10,33 +10,6 @@ import { boundsOf, type Welded, weld } from './weld';
 const smoothBelow = 10;
 /** What rounding pulls apart: of the diagonal, and in millimetres, as the core writes whole micrometres. */
 const rounding = { relative: 1e-6, absolute: 1.1e-3 } as const;
-
-interface Step {
-  readonly op: 'subtract' | 'intersect';
-  readonly by: readonly CadTree[];
-}
-
-/** What is done to each part that adds material, innermost first, by its id. Parts to which nothing is done are not in it. */
-export function stepsOf(tree: CadTree | undefined): ReadonlyMap<string, readonly Step[]> {
-  const found = new Map<string, readonly Step[]>();
-  const visit = (node: CadTree, around: readonly Step[]): void => {
-    if (typeof node === 'string') {
-      if (around.length > 0) found.set(node, around);
-      return;
-    }
-    const [op, ...children] = node;
-    if (op === 'union') for (const child of children) visit(child, around);
-    else {
-      const [first, ...others] = children;
-      const own: Step[] = [];
-      if (op === 'difference' && others.length > 0) own.push({ op: 'subtract', by: others });
-      if (op === 'intersection') for (const other of others) own.push({ op: 'intersect', by: [other] });
-      if (first !== undefined) visit(first, [...own, ...around]);
-    }
-  };
-  if (tree !== undefined) visit(tree, []);
-  return found;
-}
 
 /** Corners of their own for every triangle that is not smooth with its neighbours. */
 export interface Drawn {

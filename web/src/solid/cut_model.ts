@@ -2,8 +2,9 @@
 // coordinates of its hexahedron: so it follows that until it has been cut anew.
 import type { ManifoldToplevel } from 'manifold-3d/manifold';
 import type { CadProgram } from './cad';
-import { cutParts, type State, stepsOf } from './cut';
+import { cutParts, type State } from './cut';
 import { localNormal, localOf, mapped } from './local';
+import { stepsOf } from './steps';
 import type { Part, Triangles } from './types';
 
 /** A part that adds material. */
