@@ -45,10 +45,24 @@ Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task&
 /// (all groups standing).
 Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wish);
 
+/// What a template says once its places are filled.
+struct Rendered {
+  std::string text;
+  std::string hash;     ///< SHA-256 of the text, in hex
+  std::string version;  ///< of the template
+};
+/// The template prompts/<task>.md, which there is, with its places filled.
+Rendered render(std::string_view task, const Places& places);
+
+/// Words of a person as a template may hold them: on one line between double quotes, escaped as in JSON, without
+/// backquotes, so that no code block can open; cut to ProgramLimits::request_bytes.
+std::string quoted_words(std::string_view words);
+
 /// {"task", "relation": id or null, "text", "hash", "version"}
 nlohmann::json to_json(const Shape& shape, const Prompt& prompt);
 
 /// The JSON schema of the block that ends a reply.
 nlohmann::json reply_schema(const Task& task);
+nlohmann::json reply_schema(std::string_view task);
 
 }  // namespace parsel

@@ -24,23 +24,6 @@ Vec3 centre(const Part& part) {
   return part.hexahedron.point(Vec3::Zero());
 }
 
-/// Whether an id's words are those of the name, in any order and case: then the name adds nothing.
-bool says_the_same(const std::string& id, const std::string& name) {
-  const auto words = [](const std::string& text) {
-    std::vector<std::string> out(1);
-    for (const char c : text) {
-      if (c == '_' || c == ' ' || c == '-') {
-        out.emplace_back();
-      } else {
-        out.back() += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-      }
-    }
-    std::sort(out.begin(), out.end());
-    return out;
-  };
-  return words(id) == words(name);
-}
-
 struct Whole {
   explicit Whole(const Shape& shape) {
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();
@@ -112,6 +95,22 @@ const char* joint_words(RelationKind kind) {
 }
 
 }  // namespace
+
+bool says_the_same(const std::string& id, const std::string& name) {
+  const auto words = [](const std::string& text) {
+    std::vector<std::string> out(1);
+    for (const char c : text) {
+      if (c == '_' || c == ' ' || c == '-') {
+        out.emplace_back();
+      } else {
+        out.back() += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      }
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+  };
+  return words(id) == words(name);
+}
 
 std::string quoted_name(std::string_view name) {
   std::string text = "\"";

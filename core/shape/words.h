@@ -25,4 +25,7 @@ std::string describe(const Shape& shape, RelationIndex relation);
 /// A name as it may appear in a prompt: quoted, at most 40 bytes.
 std::string quoted_name(std::string_view name);
 
+/// Whether an id's words are those of the name, in any order and case: then the name adds nothing.
+bool says_the_same(const std::string& id, const std::string& name);
+
 }  // namespace parsel
