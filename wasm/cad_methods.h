@@ -17,6 +17,13 @@ Result<Output> find_family(const Input& input);
 /// Answers the OpenSCAD text that begins there, and the Customizer's parameter sets.
 Result<Output> family_text(const Input& input);
 
+/// cad; task: kinds or variation; kind: which one, for variation, else empty; count: of kinds, 0 as many as usual. Answers
+/// {prompt: {task, text, hash, version}, words, schema}.
+Result<Output> cad_prompt(const Input& input);
+
+/// cad, task and kind as for cad_prompt; texts: the replies. Answers what they mean, counted: core/infer/variation_reply.h.
+Result<Output> read_cad_replies(const Input& input);
+
 /// The gallery's CAD programs: [{id}], and their texts and variations as buffers, two each.
 Result<Output> cad_gallery(const Input& input);
 

@@ -67,9 +67,9 @@ Status check(const EditWish& wish, const Task& task) {
     return Error{stage, "request", "the task " + std::string(task.name) + " is about the model alone",
                  "leave the request out"};
   }
-  if (task.proposals == 0 && (wish.count != 0 || wish.picture)) {
-    return Error{stage, wish.picture ? "picture" : "count", "the task " + std::string(task.name) + " proposes nothing",
-                 "leave count and picture out"};
+  if ((task.proposals == 0 && wish.count != 0) || (!task.is_alone() && wish.picture)) {
+    return Error{stage, wish.count != 0 ? "count" : "picture", "the task " + std::string(task.name) + " takes none",
+                 "leave it out"};
   }
   if (wish.count < 0 || wish.count > most_proposals) {
     return Error{stage, "count", "it is not from 1 to " + std::to_string(most_proposals),
@@ -79,11 +79,12 @@ Status check(const EditWish& wish, const Task& task) {
 }
 
 /// A paragraph.
-std::string picture_words(const Shape& shape) {
-  std::string text = "The picture shows the model from its front, its left side and above, with numbers on its parts: ";
+std::string picture_words(const Shape& shape, const Task& task) {
+  std::string text = "The picture shows the model from its front, its left side and above, with numbers on its parts";
+  if (task.numbered != nullptr) return text + ": 1 on part_1, and so on.\n";
   int number = 0;
-  for (const PartIndex part : numbered_parts(shape)) {
-    text += (number == 0 ? "" : ", ") + std::to_string(number + 1) + " " + shape.parts[part].id;
+  for (const PartIndex part : numbered_parts(shape, task)) {
+    text += (number == 0 ? ": " : ", ") + std::to_string(number + 1) + " " + shape.parts[part].id;
     ++number;
   }
   return text + ".\n";
@@ -121,8 +122,8 @@ Result<std::vector<PartIndex>> check_wish(const Shape& shape, const EditWish& wi
   return mentioned_parts(shape, wish);
 }
 
-std::vector<PartIndex> numbered_parts(const Shape& shape) {
-  return active_parts(shape);
+std::vector<PartIndex> numbered_parts(const Shape& shape, const Task& task) {
+  return task.numbered == nullptr ? active_parts(shape) : task.numbered(shape);
 }
 
 Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task& task, AboutRelation relation) {
@@ -144,7 +145,7 @@ Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task&
                    {"request", quoted_words(wish.request)},
                    {"mentioned", mentioned.empty() ? "none" : mentioned},
                    {"count", std::to_string(wish.count == 0 ? task.proposals : wish.count)},
-                   {"picture", wish.picture ? picture_words(shape) : ""}};
+                   {"picture", wish.picture ? picture_words(shape, task) : ""}};
   if (task.places) places.merge(task.places(shape, relation));
   Rendered made = render(task.name, places);
   return Prompt{&task, relation, std::move(made.text), std::move(made.hash), std::move(made.version)};
@@ -159,7 +160,7 @@ Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wis
     return success();
   };
   for (const Task* task : all_tasks()) {
-    if (task->asks_about || task->proposals > 0) continue;
+    if (task->asks_about || task->is_alone()) continue;
     if (const Status s = add(task, {}); !s.ok()) return s.error();
   }
   for (const RelationIndex r : active_relations(shape)) {

@@ -23,8 +23,9 @@ struct EditWish {
   bool picture = false;                ///< of the model, with numbers on its parts, goes along with the prompt
 };
 
-/// What stands under the number i + 1 in the picture that goes along with a prompt: the active parts.
-std::vector<PartIndex> numbered_parts(const Shape& shape);
+/// What stands under the number i + 1 in the picture that goes along with a task's prompt: the active parts, or those that
+/// the task numbers.
+std::vector<PartIndex> numbered_parts(const Shape& shape, const Task& task);
 
 /// The parts that a wish mentions; or why it cannot be asked: blank, too long, or about parts that are not there.
 Result<std::vector<PartIndex>> check_wish(const Shape& shape, const EditWish& wish);

@@ -139,10 +139,10 @@ std::string describe_ground(const Shape& shape) {
   return text.empty() ? text : "On the floor stand (relation): " + text + ".\n";
 }
 
-std::string describe(const Shape& shape) {
+std::string describe(const Shape& shape, const std::vector<RelationIndex>& dissolved) {
   const Whole whole(shape);
-  const std::vector<PartIndex> parts = active_parts(shape);
-  const std::vector<RelationIndex> relations = active_relations(shape);
+  const std::vector<PartIndex> parts = active_parts(shape, dissolved);
+  const std::vector<RelationIndex> relations = active_relations(shape, dissolved);
   const double longest = whole.size.maxCoeff();
   std::string text = "The shape " + quoted_name(shape.name) + " has " + std::to_string(parts.size()) +
                      " parts. Its width : height : depth are as " + percent(whole.size[0] / longest) + " : " +

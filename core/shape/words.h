@@ -5,14 +5,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/shape/shape.h"
 
 namespace parsel {
 
-/// The active parts and relations (groups standing), a line each: id, size and place in percent of the whole, the name
+/// The active parts and relations (groups standing but for those dissolved), a line each: id, size and place in percent of the whole, the name
 /// where the id does not say the same; groups with their instances; joints collected by part.
-std::string describe(const Shape& shape);
+std::string describe(const Shape& shape, const std::vector<RelationIndex>& dissolved = {});
 
 /// What stands on the floor, in one line; empty when nothing does. Apart from describe(), whose text prompts are made
 /// of: what was recorded for a prompt is found again by its bytes.

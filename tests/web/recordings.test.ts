@@ -9,6 +9,7 @@ import {
   readProposals,
   readRecordings,
   readRequests,
+  renderAll,
   renderProposals,
   renderRequests,
 } from '../../web/tools/prompts.mjs';
@@ -30,10 +31,7 @@ beforeAll(async () => {
 describe('the recorded requests', () => {
   it('are whole and of today', () => {
     const recordings = readRecordings();
-    const { missing, stale } = compare(
-      [...renderRequests(core, readRequests()), ...renderProposals(core, readProposals(), recordings)],
-      recordings,
-    );
+    const { missing, stale } = compare(renderAll(core, recordings), recordings);
     expect(
       missing.map(({ model, request, prompt }) => `${model}: ${request}: ${prompt.task} ${prompt.relation}`),
     ).toEqual([]);
