@@ -171,8 +171,8 @@ Result<Output> read_cad_replies(const Input& input) {
     if (!text.is_string()) return not_as_agreed("texts", "a list of texts");
     texts.push_back(text.get<std::string>());
   }
-  const Result<json> read = asked->task->about_kind ? read_variation(asked->model, asked->kind, texts)
-                                                    : read_kinds(asked->model, texts);
+  const Result<json> read =
+      asked->task->about_kind ? read_variation(asked->model, asked->kind, texts) : read_kinds(asked->model, texts);
   if (!read.ok()) return read.error();
   return Output{*read, {}};
 }

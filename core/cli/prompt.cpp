@@ -92,7 +92,8 @@ const Command prompt_command = {
     "MODEL.glb|SHAPE.json|PROGRAM.scad --request TEXT (--task TASK [--relation ID] [-o PROMPT.md] | --all DIR) "
     "[--mention PART]… [--kind NAME] [--count N] [--picture]",
     "Prints what a language model is asked (--all: every prompt that the request is read by, as DIR/<hash>.md). "
-    "procedural_requests and part_names take no request; kinds and variation are about a CAD program, variation about one "
+    "procedural_requests and part_names take no request; kinds and variation are about a CAD program, variation about "
+    "one "
     "--kind of it; --count and --picture are for tasks that are asked on their own.",
     {"--request", "--task", "--relation", "--mention", "--all", "--kind", "--count", "-o"},
     {"--picture"},

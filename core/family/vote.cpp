@@ -162,8 +162,8 @@ Result<Voted> count_votes(const cad::Model& model, const Layout& layout, const s
     for (const Counted& counted : wanted) {
       if (counted.of - counted.holds <= *most) held.push_back(counted.constraint);
     }
-    const bool hold = std::all_of(held.begin(), held.end(),
-                                  [&](const Constraint* c) { return c->residual(medians) <= tolerance; });
+    const bool hold =
+        std::all_of(held.begin(), held.end(), [&](const Constraint* c) { return c->residual(medians) <= tolerance; });
     variation.values = hold ? medians : projected(layout, held, medians);
     if (has_sizes(layout, variation, tolerance)) return voted;
   }

@@ -29,12 +29,13 @@ struct Voted {
   std::size_t constraints = 0;  ///< of the base, between parts that the kind has
 };
 
-/// A part is absent when more than half say so. Each bound is the median over the answers that have the part, laid over each
-/// other at the middle and the ground of what they share: the numbers of one that slipped do not count. Medians may tear
-/// what each answer holds together ("as wide as deep"), so they are then moved, as little as possible (least squares), to
-/// where every constraint of the base holds that more than half of the answers hold; where that leaves a size that is not
-/// positive, to where those hold of which more answers say so. Error: without answers, when no part is left, or when they
-/// contradict each other even so. `layout` in the extended vocabulary; `ballots` have positive sizes.
+/// A part is absent when more than half say so. Each bound is the median over the answers that have the part, laid over
+/// each other at the middle and the ground of what they share: the numbers of one that slipped do not count. Medians
+/// may tear what each answer holds together ("as wide as deep"), so they are then moved, as little as possible (least
+/// squares), to where every constraint of the base holds that more than half of the answers hold; where that leaves a
+/// size that is not positive, to where those hold of which more answers say so. Error: without answers, when no part is
+/// left, or when they contradict each other even so. `layout` in the extended vocabulary; `ballots` have positive
+/// sizes.
 Result<Voted> count_votes(const cad::Model& model, const Layout& layout, const std::string& name,
                           const std::vector<Ballot>& ballots);
 

@@ -42,11 +42,13 @@ Result<CadPrompt> make_prompt(const cad::Model& model, const CadTask& task, cons
                  task.about_kind ? "name a kind, such as: bench" : "leave the kind out"};
   }
   if (!is_utf8(wish.kind) || wish.kind.size() > family::VariationLimits::name_bytes) {
-    return Error{stage, "kind", "it is no text of at most " + std::to_string(family::VariationLimits::name_bytes) + " bytes",
+    return Error{stage, "kind",
+                 "it is no text of at most " + std::to_string(family::VariationLimits::name_bytes) + " bytes",
                  "say it in a word or two"};
   }
   if (wish.count < 0 || wish.count > most_kinds || (task.about_kind && wish.count != 0)) {
-    return Error{stage, "count", "it is not from 1 to " + std::to_string(most_kinds) + ", or the task asks for one kind",
+    return Error{stage, "count",
+                 "it is not from 1 to " + std::to_string(most_kinds) + ", or the task asks for one kind",
                  "ask for " + std::to_string(usual_kinds) + " kinds"};
   }
   Rendered made = render(task.name, {{"program", describe(model)},

@@ -49,7 +49,8 @@ std::string describe(const cad::Model& model) {
     low = low.cwiseMin(part.centre + reach.low);
     high = high.cwiseMax(part.centre + reach.high);
   }
-  std::string text = "The program " + quoted_name(model.name) + " in " + quoted_name(model.unit) + ": the whole reaches";
+  std::string text =
+      "The program " + quoted_name(model.name) + " in " + quoted_name(model.unit) + ": the whole reaches";
   for (int axis = 0; axis < 3; ++axis) {
     text += std::string(axis == 0 ? " " : ", ") + "xyz"[axis] + " " + coordinate(low[axis]) + " to " +
             coordinate(high[axis]);

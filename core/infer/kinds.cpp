@@ -106,9 +106,8 @@ Kinds count_kinds(const std::vector<Kinds>& replies) {
   for (const Kinds& reply : replies) {
     for (std::size_t place = 0; place < reply.kinds.size(); ++place) {
       const Kind& kind = reply.kinds[place];
-      auto known = std::find_if(named.begin(), named.end(), [&](const Named& other) {
-        return signature(other.kind.name) == signature(kind.name);
-      });
+      auto known = std::find_if(named.begin(), named.end(),
+                                [&](const Named& other) { return signature(other.kind.name) == signature(kind.name); });
       if (known == named.end()) {
         known = named.insert(known, {kind, 0, {}});
         known->kind.votes = 0;

@@ -39,8 +39,8 @@ struct Kinds {
 Result<Kinds> read_kinds_reply(const cad::Model& model, std::string_view reply);
 
 /// Those that most replies name first, of equally many those that stand further ahead in them. Names count as the same
-/// that differ in capitals, articles, hyphens and a plural's s. A part is absent when most of those who name the kind say
-/// so; the words are the first one's.
+/// that differ in capitals, articles, hyphens and a plural's s. A part is absent when most of those who name the kind
+/// say so; the words are the first one's.
 Kinds count_kinds(const std::vector<Kinds>& replies);
 
 /// {"kinds": [{"name", "words", "absent": [ids], "votes"}], "dropped": [{"name", "reason"}]}

@@ -125,7 +125,8 @@ Result<SuggestedNames> names_of(const Shape& shape, const json& block) {
       if (id == prefix + std::to_string(i + 1)) number = i + 1;
     }
     if (number == 0) {
-      return reply_refused("/parts", "the list has no part " + shown(id), "name the parts of the list, part_1 and so on");
+      return reply_refused("/parts", "the list has no part " + shown(id),
+                           "name the parts of the list, part_1 and so on");
     }
   }
   if (std::all_of(names.labels.begin(), names.labels.end(), [](const std::string& s) { return s.empty(); })) {
@@ -164,7 +165,7 @@ std::string describe_nameless(const Shape& shape) {
   std::string text = describe(copy, listed), rows;
   for (const RelationIndex r : listed) rows += "- " + describe(copy, r) + "\n";
   if (!rows.empty()) text += "Rows and rings:\n" + rows;
-  return text + describe_ground(copy);
+  return text + describe_ground(copy, listed);
 }
 
 Result<SuggestedNames> read_names_reply(const Shape& shape, std::string_view reply) {
@@ -220,9 +221,12 @@ void write(const Shape& shape, const Inference& inference, json& out) {
   for (const LabelVote& one : vote.parts) {
     parts.push_back({{"part", shape.parts[one.part].id}, {"label", one.label}, {"votes", one.votes}});
   }
-  out["names"] = {{"category", vote.category}, {"category_votes", vote.category_votes},
-                  {"front", vote.front},       {"front_votes", vote.front_votes},
-                  {"of", vote.of},             {"parts", std::move(parts)}};
+  out["names"] = {{"category", vote.category},
+                  {"category_votes", vote.category_votes},
+                  {"front", vote.front},
+                  {"front_votes", vote.front_votes},
+                  {"of", vote.of},
+                  {"parts", std::move(parts)}};
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ struct EditWish {
   bool picture = false;                ///< of the model, with numbers on its parts, goes along with the prompt
 };
 
-/// What stands under the number i + 1 in the picture that goes along with a task's prompt: the active parts, or those that
-/// the task numbers.
+/// What stands under the number i + 1 in the picture that goes along with a task's prompt: the active parts, or those
+/// that the task numbers.
 std::vector<PartIndex> numbered_parts(const Shape& shape, const Task& task);
 
 /// The parts that a wish mentions; or why it cannot be asked: blank, too long, or about parts that are not there.
@@ -38,12 +38,12 @@ struct Prompt {
   std::string version;  ///< of the template
 };
 
-/// `relation` is needed by the tasks that ask about one, of the kind that they ask about, and refused by the others; so is
-/// the wish's request. A count and a picture are for the tasks that propose.
+/// `relation` is needed by the tasks that ask about one, of the kind that they ask about, and refused by the others; so
+/// is the wish's request. A count and a picture are for the tasks that propose.
 Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task& task, AboutRelation relation = {});
 
-/// Every prompt that a request is read by: those about the whole of it, then one for each active relation that a task asks about
-/// (all groups standing).
+/// Every prompt that a request is read by: those about the whole of it, then one for each active relation that a task
+/// asks about (all groups standing).
 Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wish);
 
 /// What a template says once its places are filled.

@@ -103,7 +103,8 @@ Result<Ballot> read_variation_reply(const cad::Model& model, const Layout& layou
 
 Result<json> read_kinds(const cad::Model& model, const std::vector<std::string>& texts) {
   json refused = json::array();
-  const auto replies = readable<Kinds>(texts, refused, [&](const std::string& t) { return read_kinds_reply(model, t); });
+  const auto replies =
+      readable<Kinds>(texts, refused, [&](const std::string& t) { return read_kinds_reply(model, t); });
   if (!replies.ok()) return replies.error();
   json out = to_json(count_kinds(*replies));
   out["refused"] = std::move(refused);

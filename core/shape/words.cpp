@@ -129,9 +129,9 @@ std::string describe(const Shape& shape, RelationIndex index) {
   return pair + " are joined " + joint_words(relation.kind);
 }
 
-std::string describe_ground(const Shape& shape) {
+std::string describe_ground(const Shape& shape, const std::vector<RelationIndex>& dissolved) {
   std::string text;
-  for (const RelationIndex r : active_relations(shape)) {
+  for (const RelationIndex r : active_relations(shape, dissolved)) {
     if (shape.relations[r].kind != RelationKind::ground) continue;
     text +=
         (text.empty() ? "" : ", ") + shape.parts[shape.relations[r].parts[0]].id + " (" + shape.relations[r].id + ")";

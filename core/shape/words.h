@@ -11,13 +11,13 @@
 
 namespace parsel {
 
-/// The active parts and relations (groups standing but for those dissolved), a line each: id, size and place in percent of the whole, the name
-/// where the id does not say the same; groups with their instances; joints collected by part.
+/// The active parts and relations (groups standing but for those dissolved), a line each: id, size and place in percent
+/// of the whole, the name where the id does not say the same; groups with their instances; joints collected by part.
 std::string describe(const Shape& shape, const std::vector<RelationIndex>& dissolved = {});
 
 /// What stands on the floor, in one line; empty when nothing does. Apart from describe(), whose text prompts are made
 /// of: what was recorded for a prompt is found again by its bytes.
-std::string describe_ground(const Shape& shape);
+std::string describe_ground(const Shape& shape, const std::vector<RelationIndex>& dissolved = {});
 
 /// One relation as a sentence without a full stop: "leg_left and leg_right are mirror images of each other, left and
 /// right".

@@ -6,11 +6,9 @@ import {
   compare,
   type Recording,
   type RenderedRequest,
-  readProposals,
   readRecordings,
   readRequests,
   renderAll,
-  renderProposals,
   renderRequests,
 } from '../../web/tools/prompts.mjs';
 import { readReplies, variantPrompts, variants } from '../eval/variants.mjs';

@@ -121,7 +121,15 @@ export function renderKinds(core, recordings) {
     const one = (task, kind) => {
       const { prompt, words, schema } = core('cad_prompt', { cad, task, kind, count: 0 }).result;
       const prompts = [{ ...prompt, relation: null }];
-      return { model: `${id}_program`, task, request: kind, mentioned: [], suggest: false, prompts, tasks: { [task]: { words, schema } } };
+      return {
+        model: `${id}_program`,
+        task,
+        request: kind,
+        mentioned: [],
+        suggest: false,
+        prompts,
+        tasks: { [task]: { words, schema } },
+      };
     };
     const own = one('kinds', '');
     const texts = (recordings.get(own.prompts[0].hash)?.replies ?? []).map(({ text }) => text);

@@ -60,7 +60,9 @@ const program = '_program';
 
 /** What of the gallery is a CAD program: its text, and what it is opened together with. */
 export const programUrls = (id: string): readonly string[] | null =>
-  id.endsWith(program) ? ['scad', 'variations.json'].map((kind) => `./gallery/programs/${id.slice(0, -program.length)}.${kind}`) : null;
+  id.endsWith(program)
+    ? ['scad', 'variations.json'].map((kind) => `./gallery/programs/${id.slice(0, -program.length)}.${kind}`)
+    : null;
 
 /** Of a model; of a program, what it makes. */
 export const galleryUrl = (id: string): string => `./gallery/${id}.glb`;

@@ -96,7 +96,9 @@ export function createKinds({ session, models, sourceOf }: KindsParts): KindsAct
     if (now?.stop === stop) state.value = { ...now, ...next(now) };
   }
   const setCard = (stop: () => void, name: string, next: KindCard['state']) =>
-    change(stop, ({ cards }) => ({ cards: cards.map((card) => (card.name === name ? { ...card, state: next } : card)) }));
+    change(stop, ({ cards }) => ({
+      cards: cards.map((card) => (card.name === name ? { ...card, state: next } : card)),
+    }));
 
   function failureOf(error: unknown): AskedKinds['failure'] {
     const isSetting = error instanceof AskError && settingFailures.includes(error.kind);
@@ -177,9 +179,7 @@ export function createKinds({ session, models, sourceOf }: KindsParts): KindsAct
       const about = { cad: model.files.cad.program, task: 'kinds', kind: '' } as const;
       const read = await ask(core, about, source, run, () => {});
       const named = read.kinds ?? [];
-      const cards = named.map(
-        ({ name, words, votes }): KindCard => ({ name, words, votes, state: { kind: 'named' } }),
-      );
+      const cards = named.map(({ name, words, votes }): KindCard => ({ name, words, votes, state: { kind: 'named' } }));
       change(stop, () => ({ isAsking: false, answers: read.votes, cards }));
       const first = cards.slice(0, drawnAtOnce);
       await Promise.all(first.map(({ name }) => drawOne(core, model, name, source, run)));

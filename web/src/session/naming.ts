@@ -92,11 +92,19 @@ export function createNaming({ session, models, askerOf, relabel }: NamingParts)
         },
       };
       const alone = { task: 'part_names', request: '' };
-      const { names, calls, tokens } = await askAlone(core, model, alone, await askerOf(model), paint, options, (answer) => {
-        const { names } = answer.inference;
-        if (names === undefined || names.of === 0) throw whyUnread(answer) ?? unusable('it names nothing');
-        return { names, calls: answer.calls, tokens: answer.tokens };
-      });
+      const { names, calls, tokens } = await askAlone(
+        core,
+        model,
+        alone,
+        await askerOf(model),
+        paint,
+        options,
+        (answer) => {
+          const { names } = answer.inference;
+          if (names === undefined || names.of === 0) throw whyUnread(answer) ?? unusable('it names nothing');
+          return { names, calls: answer.calls, tokens: answer.tokens };
+        },
+      );
       aborted.throwIfAborted();
       const { category, front, of, parts } = names;
       change(stop, { category, front, of, rows: parts, progress: null, spent: { calls, tokens } });

@@ -208,7 +208,10 @@ function Card({ asked, card, isKnown }: CardProps) {
 }
 
 /** "without arms" and what of the answers could not be used. */
-function drawnWords({ model }: AskedKinds, { variation, refused, votes }: Extract<KindCard['state'], { kind: 'drawn' }>) {
+function drawnWords(
+  { model }: AskedKinds,
+  { variation, refused, votes }: Extract<KindCard['state'], { kind: 'drawn' }>,
+) {
   const parts = model.files.cad?.parts ?? [];
   const absent = (variation as { readonly absent?: readonly string[] }).absent ?? [];
   const stems = [...new Set(absent.map((id) => parts.find((part) => part.id === id)?.stem ?? id))];

@@ -130,7 +130,9 @@ const sides = { '+z': 'its front', '-z': 'its back', '+x': 'its left', '-x': 'it
 function aboutWords({ front, of, spent }: Naming): string {
   const faces = front === '' || front === '+z' ? '' : `It seems to face what is taken for ${sides[front]}.`;
   const answers = isDemo.value ? 'Recorded answers.' : answersWords(of, spent);
-  return [faces, 'Parts of one name are compared for symmetry; correct what is wrong.', answers].filter(Boolean).join(' ');
+  return [faces, 'Parts of one name are compared for symmetry; correct what is wrong.', answers]
+    .filter(Boolean)
+    .join(' ');
 }
 
 function answersWords(of: number, { calls, tokens }: Naming['spent']): string {
