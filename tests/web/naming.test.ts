@@ -78,7 +78,7 @@ describe('names for parts', () => {
     let calls = 0;
     const { naming, isBlind } = ready(async () => {
       if (++calls <= 3) throw new AskError('request', '', 'no pictures', '');
-      return { text: 'said' };
+      return { text: 'said', tokens: null };
     });
     await naming.start(() => 'a picture');
     expect(isBlind).toHaveBeenCalledOnce();
