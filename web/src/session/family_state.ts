@@ -10,8 +10,13 @@ export type FamilySlider = FoundFamily['family']['sliders'][number];
 export type Choice = 'forced' | 'off';
 export type Choices = Readonly<Record<string, Choice>>;
 
+/** One entry of `parsel/variations`, of which only the name matters here. */
+export interface NamedVariation {
+  readonly name: string;
+}
+
 /** `parsel/variations` v1 as the core takes it; null: none. */
-export type Variations = { readonly variations: readonly { readonly name: string }[] } | null;
+export type Variations = { readonly variations: readonly NamedVariation[] } | null;
 
 /** What the core found for a program, its variations and what was chosen. */
 export interface FamilySource {

@@ -216,24 +216,32 @@ export function reopen(core: ModelCore, files: ModelFiles, source: ModelSource, 
 }
 
 /** Gives a part another label (null: the file's own): the shape is abstracted anew, and the work carried over to it. */
-export async function relabel(core: ModelCore, keys: readonly string[], label: string | null): Promise<boolean> {
+export const relabel = (core: ModelCore, keys: readonly string[], label: string | null): Promise<boolean> =>
+  relabelAll(core, new Map(keys.map((key) => [key, label])), 'change label');
+
+/** The same for many parts in one step, by partKey(). */
+export async function relabelAll(
+  core: ModelCore,
+  given: ReadonlyMap<string, string | null>,
+  step: string,
+): Promise<boolean> {
   const { model } = document.peek();
   if (model === null) return false;
   const labels = new Map(model.labels);
-  for (const key of keys)
+  for (const [key, label] of given)
     if (label === null) labels.delete(key);
     else labels.set(key, label);
   const shape = await run('Looking at the parts again', (options) => core.open(model.files, options, labels));
   if (shape === null || document.peek().model !== model) return false;
   const next = carryOver(document.peek(), { ...model, shape, labels });
-  replaceDocument(next, 'change label');
+  replaceDocument(next, step);
   const lost = next.layers.filter(({ layer }) => misfit(shape, layer) !== null);
   if (lost.length > 0) {
     const them =
       lost.length === 1
         ? 'One edit no longer fits the parts and rests'
         : `${lost.length} edits no longer fit the parts and rest`;
-    say(`${them}. Undo takes the label back.`);
+    say(`${them}. Undo takes ${given.size === 1 ? 'the label' : 'the labels'} back.`);
   }
   return true;
 }
