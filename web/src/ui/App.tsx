@@ -22,6 +22,7 @@ import { LayerCard } from './LayerCard';
 import { ModelDialog } from './ModelDialog';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
+import { PrintDialog } from './PrintDialog';
 import { ProgramDialog } from './ProgramDialog';
 import { ReadingsDialog } from './ReadingsDialog';
 import { RightPanel } from './RightPanel';
@@ -128,6 +129,7 @@ export function App() {
       {dialog.value === 'help' && <HelpDialog />}
       {dialog.value === 'text' && <ProgramDialog />}
       {dialog.value === 'model' && <ModelDialog />}
+      {dialog.value === 'print' && <PrintDialog />}
       {dialog.value === 'explore' && <ExploreDialog />}
       {dialog.value === 'readings' && <ReadingsDialog />}
       {dropping.value && (

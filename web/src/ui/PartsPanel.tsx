@@ -6,6 +6,7 @@ import { nameOf, partKey } from '../session/document';
 import { relabel } from '../session/open';
 import { document, pointedAt, select, selected, selection, showAll } from '../session/session';
 import { Found } from './Found';
+import { NamesCard } from './NamesCard';
 import { PartsList } from './PartsList';
 import { SelectionBar } from './SelectionBar';
 import { SplitCard } from './SplitCard';
@@ -26,6 +27,7 @@ export function PartsPanel({ onEdit }: { onEdit: () => void }) {
         </button>
       )}
       <SplitCard />
+      <NamesCard />
       <SelectionBar shape={model.shape} onEdit={onEdit} />
       {selected.value.length < 2 && <SelectedPart />}
     </>
