@@ -4,8 +4,9 @@
 // dies before leaves nothing under a result's name.
 //
 //   DIR/<key>/result.json …     results
-//   DIR/.work/<host>.<pid>.<n>  what is being made
+//   DIR/.work/<host>.<pid>.…    what is being made
 //   DIR/results.jsonl           all results, a line each: added to while a batch runs, in the manifest's order at its end
+import { randomUUID } from 'node:crypto';
 import {
   closeSync,
   existsSync,
@@ -41,6 +42,8 @@ type Named = Pick<Entry, 'key' | 'digest'>;
 
 export class Store {
   private made = 0;
+  /** Containers may share both name and process ids. */
+  private readonly own = randomUUID().slice(0, 8);
   private readonly host = hostname().replace(/[^\w-]/g, '_');
 
   /** Makes the folder. @throws Refusal */
@@ -64,7 +67,7 @@ export class Store {
 
   /** A path to make something at that is to get its name later. */
   aside(): string {
-    return join(this.folder, '.work', `${this.host}.${process.pid}.${++this.made}`);
+    return join(this.folder, '.work', `${this.host}.${process.pid}.${this.own}-${++this.made}`);
   }
 
   /** The keys that something stands under; of many jobs, a quick look. */
