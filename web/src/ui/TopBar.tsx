@@ -23,6 +23,12 @@ function exportItems(): MenuItem[] {
   return [
     { label: 'Edited model', hint: '.glb', disabled: none, act: () => void exportModel('all') },
     {
+      label: 'Edited model, gaps closed',
+      hint: '.glb',
+      disabled: noLayer,
+      act: () => void exportModel('all', true),
+    },
+    {
       label: selected.value.length > 1 ? 'Selected parts only' : 'Selected part only',
       hint: '.glb',
       disabled: none || selected.value.length === 0,
