@@ -52,6 +52,15 @@ async function questionOf(
   return { ...known, source: recordedSource(recordings) };
 }
 
+/** The questions to the letter that what is typed would ask, whoever is asked; none while nothing is, or no model is open. */
+export async function questionTexts(): Promise<readonly string[]> {
+  const core = models.peek();
+  const { model } = session.document.peek();
+  const text = requestText.peek().trim();
+  if (core === null || model === null || text === '') return [];
+  return (await core.prompts(model, text, mentioned.peek())).prompts.map((prompt) => prompt.text);
+}
+
 export const {
   applyRequest,
   askAgain,

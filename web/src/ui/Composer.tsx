@@ -45,7 +45,7 @@ export function Composer({ picking }: { picking: boolean }) {
   const isAsking = state.kind === 'asking';
   useMentions(picking, isFocused);
   if (document.value.model === null) return null;
-  const name = isDemo.value ? 'Recorded answers' : choiceOf(settings.value.provider).model || 'No model chosen';
+  const name = isDemo.value ? 'Recorded answers' : choiceOf(settings.value.provider).model;
 
   const send = () => void sendRequest();
   const onKeyDown = (event: KeyboardEvent) => {
