@@ -183,21 +183,19 @@ describe('asking', () => {
     function unproven(react: (task: string, vote: number) => Reaction | undefined) {
       const fake = fakeSource(3, react);
       const reply = vi.spyOn(fake.source, 'reply');
-      let proven = false;
-      fake.source.isProven = () => proven;
-      return { ...fake, reply, prove: () => void (proven = true) };
+      const known = { isProven: false };
+      fake.source.isProven = () => known.isProven;
+      return { ...fake, reply, known };
     }
 
     it('is asked one question, and all others once that is answered', async () => {
-      let answer: (text: string) => void = () => {};
       const { source, reply } = unproven(() => undefined);
-      reply.mockImplementationOnce(
-        () => new Promise((resolve) => void (answer = (text) => resolve({ text, tokens: null }))),
-      );
+      const answer: ((reply: Reply) => void)[] = [];
+      reply.mockReturnValueOnce(new Promise((resolve) => answer.push(resolve)));
       const running = run(source);
       await new Promise((resolve) => setTimeout(resolve, 30));
       expect(reply).toHaveBeenCalledTimes(1);
-      answer('seed_edit');
+      answer[0]?.({ text: 'seed_edit', tokens: null });
       expect((await running).calls).toBe(9);
     });
 
@@ -218,8 +216,8 @@ describe('asking', () => {
     });
 
     it('is asked for everything at once when it has answered before', async () => {
-      const { source, reply, prove } = unproven(() => 'never');
-      prove();
+      const { source, reply, known } = unproven(() => 'never');
+      known.isProven = true;
       const controller = new AbortController();
       const running = run(source, { signal: controller.signal });
       await new Promise((resolve) => setTimeout(resolve, 10));

@@ -22,6 +22,7 @@ import { dialog } from './actions';
 import { Icon } from './Icon';
 import { ReadingCard } from './ReadingCard';
 import { useRecorded } from './recorded';
+import { SidesLine } from './SidesSwitch';
 import { suggestSliders } from './SuggestPanel';
 
 const maxLength = 1000;
@@ -127,6 +128,7 @@ export function Composer({ picking }: { picking: boolean }) {
           <Icon name="send" />
         </button>
       </form>
+      {!isAsking && <SidesLine />}
       <Below />
     </section>
   );
