@@ -24,7 +24,7 @@ export const sideWords: readonly SideWords[] = [
       ['left', 'right', 'forwards', 'backwards'],
     ],
     parts: ['back', 'front'],
-    prepositions: ['to', 'towards', 'toward', 'at', 'in', 'from', 'on', 'more', 'further', 'farther'],
+    prepositions: 'at from in to toward towards on more further farther'.split(' '),
     articles: ['the', 'its'],
     not: ['right angle', 'right angles', 'right away', 'right now', 'all right', 'back in', 'back to', 'left over'],
   },

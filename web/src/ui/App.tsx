@@ -3,6 +3,7 @@ import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
 import type { Insets } from '../scene/camera';
+import { cutting } from '../session/cutting';
 import { readDropped } from '../session/files';
 import { lookOnOpening } from '../session/page_offers';
 import { document } from '../session/session';
@@ -11,6 +12,7 @@ import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
 import { Compass } from './Compass';
 import { Composer } from './Composer';
+import { CutCard, CutHandle } from './CutCard';
 import { Dimensions } from './Dimensions';
 import { ExploreDialog } from './ExploreDialog';
 import { FirstScreen } from './FirstScreen';
@@ -82,7 +84,7 @@ export function App() {
     <div class={`app ${isPhone.value ? 'phone' : ''}`}>
       <StageView insets={insets} pickKind={pickKind} />
       <Compass right={insets.right} />
-      <Handles />
+      {cutting.value === null ? <Handles /> : <CutHandle />}
       <FirstScreen />
       <TopBar />
       <main>
@@ -106,6 +108,7 @@ export function App() {
         >
           <TourOffer />
           <SplitOffer />
+          <CutCard />
           <StatusLine />
           <div class="row">
             <Dimensions />
