@@ -42,17 +42,17 @@ const rooms = {
     rule: 'llm asks language models; what prompts and replies mean is the business of the core and the session',
   },
   share: {
-    may: ['program', 'scene/camera', 'carve/steps', 'session/document', 'session/family_state'],
+    may: ['program', 'scene/camera', 'carve/steps', 'carve/placing', 'session/document', 'session/family_state'],
     packages: ['valibot'],
     rule: 'share writes and reads saved work; of the session it knows the type of the work alone',
   },
   session: {
-    may: ['program', 'scene', 'formats', 'carve/steps', 'worker', 'llm', 'share'],
+    may: ['program', 'scene', 'formats', 'carve/steps', 'carve/placing', 'worker', 'llm', 'share'],
     packages: ['@preact/signals', 'valibot', 'idb-keyval', 'fflate', 'parsel-module', 'draco3dgltf'],
     rule: 'session is the state of the page and what can be done to it, without a single element of the page',
   },
   ui: {
-    may: ['program', 'scene', 'worker', 'llm', 'share', 'session'],
+    may: ['program', 'scene', 'carve/placing', 'worker', 'llm', 'share', 'session'],
     packages: ['preact', '@preact/signals'],
     rule: 'ui shows the session and calls it; drawing, storing and asking are done in their rooms',
   },

@@ -1,9 +1,11 @@
 // Parts joined, split and cut by hand: in the view and by keyboard, undone, and kept.
+import { readFile } from 'node:fs/promises';
+import { WebIO } from '@gltf-transform/core';
 import type { BrowserContext, Page } from 'playwright-core';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
-import { stool } from './fixture';
+import { stool, stoolGltf, toGlb } from './fixture';
 import { openModel, outputFolder, saved, useSite } from './harness';
 import { tableInOnePiece } from './one_mesh';
 
@@ -159,4 +161,60 @@ it('on a phone the cut has room, in the dark as well', async () => {
   await page.waitForTimeout(300);
   await page.screenshot({ path: `${outputFolder}/carve-phone.png` });
   expect(await serious(page)).toEqual([]);
+});
+
+describe('a model that lies on its back', () => {
+  const height = () =>
+    page.evaluate(() => {
+      const { parts, frame } = parsel.document().model?.shape ?? {};
+      const ys = (parts ?? []).flatMap(({ corners }) => corners.map(([, y]) => y));
+      return (Math.max(...ys) - Math.min(...ys)) * (frame?.scale ?? 0);
+    });
+
+  it('is offered to be stood up, and exported as its file was', async () => {
+    const lying = stoolGltf();
+    const roots = (lying.json['scenes'] as { nodes: number[] }[])[0]?.nodes ?? [];
+    const nodes = lying.json['nodes'] as Record<string, unknown>[];
+    nodes.push({
+      name: 'lying',
+      rotation: [Math.SQRT1_2, 0, 0, Math.SQRT1_2],
+      scale: [100, 100, 100],
+      children: roots,
+    });
+    lying.json['scenes'] = [{ nodes: [nodes.length - 1] }];
+    await open(toGlb(lying), 'lying.glb');
+    const offer = page.getByRole('region', { name: 'How it stands' });
+    await offer.getByText('It seems to lie on its back').waitFor();
+    await page.screenshot({ path: `${outputFolder}/carve-lying.png` });
+    const lyingHeight = await height();
+    await offer.getByRole('button', { name: 'Stand it up' }).click();
+    await offer.getByText(/This model is .* m high/).waitFor();
+    const standing = await height();
+    expect(standing).toBeGreaterThan(1.3 * lyingHeight);
+    await offer.getByRole('button', { name: /^Make it .* cm high$/ }).click();
+    await expect.poll(() => offer.count()).toBe(0);
+    expect(await height()).toBeCloseTo(standing / 100, 5);
+    await page.screenshot({ path: `${outputFolder}/carve-standing.png` });
+    expect(await serious(page)).toEqual([]);
+
+    const exported = async (name: string) => {
+      await page.getByRole('button', { name: 'Export', exact: true }).click();
+      const [download] = await Promise.all([
+        page.waitForEvent('download'),
+        page.getByRole('menuitem', { name }).click(),
+      ]);
+      const document = await new WebIO().readBinary(new Uint8Array(await readFile(await download.path())));
+      const seat = document
+        .getRoot()
+        .listNodes()
+        .find((node) => node.getName() === 'seat');
+      return (seat?.getWorldMatrix() ?? []).map((value) => Math.round(value * 1e4) / 1e4 + 0);
+    };
+    const original = (await new WebIO().readBinary(new Uint8Array(toGlb(lying)))).getRoot().listNodes()[0];
+    const inFile = original?.getWorldMatrix().map((value) => Math.round(value * 1e4) / 1e4 + 0);
+    expect(await exported('Edited model .glb')).toEqual(inFile);
+    expect(await exported('Edited model as it stands here .glb')).not.toEqual(inFile);
+    await page.keyboard.press('Control+z');
+    await expect.poll(height).toBeCloseTo(standing, 3);
+  });
 });

@@ -9,6 +9,7 @@ import { cutTriangles, type Side } from './cut';
 import { chosen, pieces, places, triangleList, trianglesOf } from './geometry';
 import { joined } from './join';
 import { apply, determinant } from './matrix';
+import { axesOf, type Placing, placingNode } from './placing';
 import { type Carved, CarveError, type CarveStep, type PartKey, type Plane, partKeyOf, partOf } from './steps';
 
 const known = new Set(ALL_EXTENSIONS.map(({ EXTENSION_NAME }) => EXTENSION_NAME));
@@ -59,10 +60,13 @@ class Carver {
   }
 
   run(step: CarveStep): void {
-    const at = (step.kind === 'divide' ? [step.part] : step.parts).map((key) => this.#place(key));
-    if (step.kind === 'join') this.#join(at);
-    else if (step.kind === 'cut') this.#cut(at, step.plane);
-    else for (const place of at) this.#divide(place);
+    if (step.kind === 'place') this.#stand(step);
+    else if (step.kind === 'divide') this.#divide(this.#place(step.part));
+    else {
+      const at = step.parts.map((key) => this.#place(key));
+      if (step.kind === 'join') this.#join(at);
+      else this.#cut(at, step.plane);
+    }
   }
 
   /** Which parts have other keys now, and which are new. */
@@ -221,6 +225,25 @@ class Carver {
       return a < b;
     };
     return cutTriangles(triangles, from, isLid, before);
+  }
+
+  /** One node above all others turns and scales them. */
+  #stand(placing: Placing): void {
+    const root = this.document.getRoot();
+    const scene = root.getDefaultScene() ?? root.listScenes()[0];
+    if (scene === undefined) throw new CarveError('This file shows no scene. Export the model again.');
+    let above = this.#nodes.find((node) => node.getName() === placingNode);
+    if (above === undefined) {
+      above = this.document.createNode(placingNode);
+      for (const child of scene.listChildren()) {
+        scene.removeChild(child);
+        above.addChild(child);
+      }
+      scene.addChild(above);
+    }
+    const axes = axesOf(placing);
+    const column = (i: number) => [...axes.map((axis) => placing.metres * (axis[i] ?? 0)), 0];
+    above.setMatrix([...column(0), ...column(1), ...column(2), 0, 0, 0, 1] as Parameters<Node['setMatrix']>[0]);
   }
 
   #join(at: readonly Place[]): void {

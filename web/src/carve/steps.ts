@@ -1,4 +1,5 @@
 // What a person does by hand to what is one part, as data: it is done to the file, kept with the work, and done again.
+import type { Placing } from './placing';
 
 /** A part by the index of its node and of its primitive: "node:3/0". */
 export type PartKey = string;
@@ -12,7 +13,9 @@ export type CarveStep =
   /** What hangs together becomes a part each, once corners at one place are one. */
   | { readonly kind: 'divide'; readonly part: PartKey }
   /** Cuts parts in two where the plane goes through them. */
-  | { readonly kind: 'cut'; readonly parts: readonly PartKey[]; readonly plane: Plane };
+  | { readonly kind: 'cut'; readonly parts: readonly PartKey[]; readonly plane: Plane }
+  /** Stands the model up and gives it a size; takes the place of one before. */
+  | ({ readonly kind: 'place' } & Placing);
 
 /** Refused, in a sentence for people with what to do. */
 export class CarveError extends Error {}

@@ -1,4 +1,4 @@
-// Parts joined, split and cut by hand, each as a step that undo takes back. Names, labels and what is hidden go along; edits
+// Parts joined, split and cut by hand, and the whole stood up, each as a step that undo takes back. Names, labels and what is hidden go along; edits
 // do not, since they are about parts that are others then.
 import type { CarveStep, PartKey, Plane } from '../carve/steps';
 import type { Shape, Vec3 } from '../program/types';
@@ -24,8 +24,13 @@ export const keysOf = (shape: Shape, ids: readonly string[]): PartKey[] =>
     return part === undefined ? [] : [partKey(part)];
   });
 
-const doing = { join: 'Joining the parts', divide: 'Splitting the part', cut: 'Cutting the parts' } as const;
-const done = { join: 'join parts', divide: 'split part', cut: 'cut parts' } as const;
+const doing = {
+  join: 'Joining the parts',
+  divide: 'Splitting the part',
+  cut: 'Cutting the parts',
+  place: 'Standing the model up',
+} as const;
+const done = { join: 'join parts', divide: 'split part', cut: 'cut parts', place: 'how it stands' } as const;
 
 /** Does a step as one of the history, and selects the new parts. False, and a sentence, when it cannot be done. */
 export async function carveModel(core: ModelCore, step: CarveStep, carve: Carver = carved): Promise<boolean> {
@@ -47,6 +52,7 @@ export async function carveModel(core: ModelCore, step: CarveStep, carve: Carver
   if (made === null || document.peek().model !== model) return false;
   const { found } = made;
   replaceDocument(onto(before, made.model, found), done[step.kind]);
+  if (step.kind === 'place') return true;
   const isNew = new Set(found.made);
   selectAll(made.model.shape.parts.filter((part) => !part.virtual && isNew.has(partKey(part))).map(({ id }) => id));
   if (found.lost.length > 0) say(`The file loses ${found.lost.slice(0, 3).join(', ')}, which is not known here.`);

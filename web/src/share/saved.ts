@@ -1,5 +1,6 @@
 // `parsel/session` v1: the work on a model without the model, for files and links. Untrusted when it is read.
 import * as v from 'valibot';
+import { directions } from '../carve/placing';
 import type { Plane } from '../carve/steps';
 import { shortened } from '../program/cut';
 import { jsonLimits, parseJson } from '../program/json';
@@ -56,9 +57,19 @@ const carveSchema = v.variant('kind', [
   v.strictObject({ kind: v.literal('join'), parts: partKeys }),
   v.strictObject({ kind: v.literal('divide'), part: partKey }),
   v.strictObject({ kind: v.literal('cut'), parts: partKeys, plane: planeSchema }),
+  v.strictObject({
+    kind: v.literal('place'),
+    ...v.entriesFromList(['up', 'front'], v.picklist(directions)),
+    metres: v.pipe(v.number(), v.minValue(1e-6), v.maxValue(1e6)),
+  }),
 ]);
-/** Steps depend on those before them: all of them, or none. */
-const carvedSchema = v.pipe(v.array(carveSchema), v.minLength(1), v.maxLength(limits.layers));
+/** Steps depend on those before them: all of them, or none. What faces the front of a model is not above it. */
+const carvedSchema = v.pipe(
+  v.array(carveSchema),
+  v.minLength(1),
+  v.maxLength(limits.layers),
+  v.everyItem((step) => step.kind !== 'place' || step.up.charAt(1) !== step.front.charAt(1)),
+);
 
 const savedSchema = v.strictObject({
   format: v.literal('parsel/session'),

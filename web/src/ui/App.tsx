@@ -24,6 +24,7 @@ import { LayerCard } from './LayerCard';
 import { ModelDialog } from './ModelDialog';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
+import { PlaceOffer } from './PlaceCard';
 import { ProgramDialog } from './ProgramDialog';
 import { ReadingsDialog } from './ReadingsDialog';
 import { RightPanel } from './RightPanel';
@@ -108,6 +109,7 @@ export function App() {
         >
           <TourOffer />
           <SplitOffer />
+          <PlaceOffer />
           <CutCard />
           <StatusLine />
           <div class="row">

@@ -7,6 +7,7 @@ import { relabel } from '../session/open';
 import { document, pointedAt, select, selected, selection, showAll } from '../session/session';
 import { Found } from './Found';
 import { PartsList } from './PartsList';
+import { PlaceCard } from './PlaceCard';
 import { SelectionBar } from './SelectionBar';
 import { SplitCard } from './SplitCard';
 import { whyPart } from './why';
@@ -26,6 +27,7 @@ export function PartsPanel({ onEdit }: { onEdit: () => void }) {
         </button>
       )}
       <SplitCard />
+      <PlaceCard />
       <SelectionBar shape={model.shape} onEdit={onEdit} />
       {selected.value.length < 2 && <SelectedPart />}
     </>

@@ -9,6 +9,7 @@ import { type FileSet, hasModel, sessionOf, unpacked } from '../session/files';
 import type { ExportOptions } from '../session/model_core';
 import { oneFile, slidersOfWork } from '../session/one_file';
 import { openFiles, openSaved } from '../session/open';
+import { asItsFile } from '../session/placing';
 import { document, run, say, selected } from '../session/session';
 import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
@@ -85,7 +86,8 @@ export async function exportScreenshot(): Promise<void> {
   if (picture) download(fileName('.png'), picture);
 }
 
-export async function exportModel(kind: 'all' | 'selected' | 'animated'): Promise<void> {
+/** @param asItStands turned and sized as it is shown; else as its file was */
+export async function exportModel(kind: 'all' | 'selected' | 'animated', asItStands = false): Promise<void> {
   const core = models.peek();
   const { model } = document.peek();
   if (core === null || model === null) return;
@@ -97,7 +99,10 @@ export async function exportModel(kind: 'all' | 'selected' | 'animated'): Promis
     ...(kind === 'animated' ? { animate: program.layers.at(-1)?.parameter.name ?? '' } : {}),
     ...(kind === 'selected' ? { only: [...selected.peek()] } : {}),
   };
-  const exported = await run('Writing the file', () => core.apply(model, program, options));
+  const exported = await run('Writing the file', async (running) => {
+    const made = await core.apply(model, program, options);
+    return asItStands ? made : { ...made, glb: await asItsFile(model.files, made.glb, running) };
+  });
   if (exported === null) return;
   download(
     `${editedName(modelName())}${{ all: '', selected: '.part', animated: '.animated' }[kind]}.glb`,
