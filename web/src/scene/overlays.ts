@@ -43,6 +43,11 @@ export class Overlays {
   readonly #points: three.Points;
   readonly #faces = new FaceOverlay();
   readonly #planes: three.Mesh[] = [];
+  readonly #ruler = new three.Line(buffer(2), new three.LineBasicMaterial({ depthTest: false, transparent: true }));
+  readonly #marks = new three.Points(
+    buffer(2),
+    new three.PointsMaterial({ size: 10, sizeAttenuation: false, depthTest: false, transparent: true }),
+  );
   readonly #sheet = new three.Mesh(
     new three.PlaneGeometry(2, 2),
     new three.MeshBasicMaterial({ transparent: true, opacity: 0.3, side: three.DoubleSide, depthWrite: false }),
@@ -72,7 +77,9 @@ export class Overlays {
       side: three.DoubleSide,
       depthWrite: false,
     });
-    for (const object of [this.#box, this.#feature, this.#featureLine, this.#guide, this.#points]) {
+    this.#ruler.visible = this.#marks.visible = false;
+    const fixed = [this.#box, this.#feature, this.#featureLine, this.#guide, this.#points, this.#ruler, this.#marks];
+    for (const object of fixed) {
       object.frustumCulled = false;
       object.renderOrder = 10;
       this.root.add(object);
@@ -101,6 +108,8 @@ export class Overlays {
       this.#box,
       this.#faces.mesh,
       this.#sheet,
+      this.#ruler,
+      this.#marks,
     ];
     for (const object of coloured) {
       (object.material as three.LineBasicMaterial).color.set(accent);
@@ -129,6 +138,18 @@ export class Overlays {
       positions.setXYZ(end, point.x + line.from[0], point.y + line.from[1], point.z + line.from[2]);
     }
     positions.needsUpdate = true;
+  }
+
+  /** The points that a ruler goes between, and the line; none takes it away. */
+  ruler(points: readonly Vec3[]): void {
+    this.#ruler.visible = points.length === 2;
+    this.#marks.visible = points.length > 0;
+    for (const geometry of [this.#ruler.geometry, this.#marks.geometry]) {
+      const positions = geometry.getAttribute('position') as three.BufferAttribute;
+      for (const [i, point] of points.entries()) positions.setXYZ(i, ...point);
+      positions.needsUpdate = true;
+    }
+    this.#marks.geometry.setDrawRange(0, points.length);
   }
 
   /** A sheet across a direction, through a point; null takes it away. */

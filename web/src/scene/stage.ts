@@ -209,6 +209,12 @@ export class Stage {
     this.invalidate();
   }
 
+  /** Shows a ruler between points of the normalised frame; null takes it away. */
+  showRuler(points: readonly Vec3[] | null): void {
+    this.#actor?.overlays.ruler(points ?? []);
+    this.invalidate();
+  }
+
   /** Shows a plane that something is to be cut by. */
   showSheet(plane: Sheet | null): void {
     this.#actor?.overlays.sheet(plane);

@@ -33,6 +33,7 @@ import { SplitOffer } from './SplitCard';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
 import { listenForShortcuts } from './shortcuts';
+import { RulerCard, Tools } from './Tools';
 import { TopBar } from './TopBar';
 import { Tour, TourOffer } from './Tour';
 import { welcome } from './welcome';
@@ -111,9 +112,11 @@ export function App() {
           <SplitOffer />
           <PlaceOffer />
           <CutCard />
+          <RulerCard />
           <StatusLine />
           <div class="row">
             <Dimensions />
+            <Tools />
             <ApartSlider />
           </div>
           <Composer picking={pickKind.value !== null} />
