@@ -31,9 +31,14 @@ const rooms = {
     packages: ['@gltf-transform'],
     rule: 'carve changes what is one part of a glTF file and nothing else; it also runs where there is no page',
   },
+  solid: {
+    may: [],
+    packages: ['manifold-3d', 'fflate', '@gltf-transform'],
+    rule: 'solid makes one closed surface of triangles and writes it for printers; it also runs where there is no page',
+  },
   worker: {
-    may: ['scene/load', 'formats', 'carve'],
-    packages: ['valibot', 'parsel-module', 'draco3dgltf', 'meshoptimizer', '@gltf-transform'],
+    may: ['scene/load', 'formats', 'carve', 'solid'],
+    packages: ['valibot', 'parsel-module', 'draco3dgltf', 'meshoptimizer', '@gltf-transform', 'manifold-3d'],
     rule: 'worker is the way to the core and back; of the page it knows the type of a file alone, and what reads files',
   },
   llm: {
@@ -47,7 +52,7 @@ const rooms = {
     rule: 'share writes and reads saved work; of the session it knows the type of the work alone',
   },
   session: {
-    may: ['program', 'scene', 'formats', 'carve/steps', 'carve/placing', 'worker', 'llm', 'share'],
+    may: ['program', 'scene', 'formats', 'carve/steps', 'carve/placing', 'solid', 'worker', 'llm', 'share'],
     packages: ['@preact/signals', 'valibot', 'idb-keyval', 'fflate', 'parsel-module', 'draco3dgltf'],
     rule: 'session is the state of the page and what can be done to it, without a single element of the page',
   },

@@ -6,7 +6,7 @@ import { loadCore, root } from './core.mjs';
 const folder = join(root, 'web', 'public', 'gallery');
 const core = await loadCore();
 const { result, buffers } = core('gallery', {});
-mkdirSync(folder, { recursive: true });
+mkdirSync(join(folder, 'programs'), { recursive: true });
 for (const [index, { file }] of result.models.entries()) writeFileSync(join(folder, file), buffers[index]);
 writeFileSync(join(folder, 'gallery.json'), JSON.stringify(result.models));
 
@@ -15,8 +15,9 @@ const { result: cad, buffers: texts } = core('cad_gallery', {});
 const programs = cad.programs.map(({ id }, index) => {
   const name = `${id}_program`;
   const [scad, variations] = texts.slice(2 * index, 2 * index + 2);
-  writeFileSync(join(folder, `${name}.scad`), scad);
-  writeFileSync(join(folder, `${name}.variations.json`), variations);
+  // Under the name that the page opens it by, which stands in prompts.
+  writeFileSync(join(folder, 'programs', `${id}.scad`), scad);
+  writeFileSync(join(folder, 'programs', `${id}.variations.json`), variations);
   writeFileSync(join(folder, `${name}.glb`), core('open_cad', { name: id }, [scad]).buffers[0]);
   return { id: name, title: id[0].toUpperCase() + id.slice(1) };
 });

@@ -106,6 +106,48 @@ export function renderProposals(core, proposals, recordings) {
   });
 }
 
+/** As many kinds of a program are drawn without being asked for: drawnAtOnce in web/src/session/kinds.ts. */
+const drawnKinds = 6;
+
+/**
+ * Renders what is asked about the gallery's CAD programs: which kinds there are, and the numbers of those that most of the
+ * recorded replies name.
+ * @returns as renderRequests(), the model being the program's id in the gallery, each with the task that it is of
+ */
+export function renderKinds(core, recordings) {
+  const { result, buffers } = core('cad_gallery', {});
+  return result.programs.flatMap(({ id }, index) => {
+    const { cad } = core('open_cad', { name: id }, [buffers[2 * index]]).result;
+    const one = (task, kind) => {
+      const { prompt, words, schema } = core('cad_prompt', { cad, task, kind, count: 0 }).result;
+      const prompts = [{ ...prompt, relation: null }];
+      return {
+        model: `${id}_program`,
+        task,
+        request: kind,
+        mentioned: [],
+        suggest: false,
+        prompts,
+        tasks: { [task]: { words, schema } },
+      };
+    };
+    const own = one('kinds', '');
+    const texts = (recordings.get(own.prompts[0].hash)?.replies ?? []).map(({ text }) => text);
+    if (texts.length === 0) return [own];
+    const { kinds } = core('read_cad_replies', { cad, task: 'kinds', kind: '', texts }).result;
+    return [own, ...kinds.slice(0, drawnKinds).map(({ name }) => one('variation', name))];
+  });
+}
+
+/** Everything that may be recorded. */
+export function renderAll(core, recordings = readRecordings()) {
+  return [
+    ...renderRequests(core, readRequests()),
+    ...renderProposals(core, readProposals(), recordings),
+    ...renderKinds(core, recordings),
+  ];
+}
+
 /**
  * What of the requests is recorded.
  * @returns offered: those with every prompt recorded; open: those with none; missing: prompts without a recording of

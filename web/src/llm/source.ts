@@ -50,18 +50,19 @@ export function liveSource(target: Target, { votes, cache, afresh = false, pictu
   };
 }
 
-export function recordedSource({ replies }: Recordings): Source {
+/** What is said of a prompt without a recording. */
+const nothingRecorded = {
+  cause: 'There is no recorded answer to this request',
+  fix: 'Choose one of the recorded requests, or enter a key in the settings to ask anything',
+};
+
+export function recordedSource({ replies }: Recordings, { cause, fix } = nothingRecorded): Source {
   const of = ({ hash }: Prompt) => (Object.hasOwn(replies, hash) ? (replies[hash] ?? []) : []);
   return {
     votes: (prompt) => Math.max(1, of(prompt).length),
     kept: async (prompt, vote) => of(prompt)[vote],
     async reply() {
-      throw new AskError(
-        'no_recording',
-        '',
-        'There is no recorded answer to this request',
-        'Choose one of the recorded requests, or enter a key in the settings to ask anything',
-      );
+      throw new AskError('no_recording', '', cause, fix);
     },
     discard: async () => {},
   };

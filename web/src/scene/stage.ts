@@ -282,6 +282,12 @@ export class Stage {
     };
   }
 
+  /** For tests: which vertices of a part are corners of which triangle. */
+  trianglesOf(part: number): number[] {
+    const index = this.#actor?.view.meshOf(part)?.geometry.index;
+    return index ? [...index.array] : [];
+  }
+
   /** For tests: what the graphics card makes of a part. See readback.ts. */
   async readVertices(part: number, what: 'positions' | 'normals'): Promise<Float32Array> {
     const { readVertices } = await import('./readback');

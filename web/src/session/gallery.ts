@@ -56,9 +56,13 @@ export async function loadPrograms(): Promise<v.InferOutput<typeof programsSchem
   }
 }
 
+const program = '_program';
+
 /** What of the gallery is a CAD program: its text, and what it is opened together with. */
 export const programUrls = (id: string): readonly string[] | null =>
-  id.endsWith('_program') ? [`./gallery/${id}.scad`, `./gallery/${id}.variations.json`] : null;
+  id.endsWith(program)
+    ? ['scad', 'variations.json'].map((kind) => `./gallery/programs/${id.slice(0, -program.length)}.${kind}`)
+    : null;
 
 /** Of a model; of a program, what it makes. */
 export const galleryUrl = (id: string): string => `./gallery/${id}.glb`;

@@ -25,6 +25,7 @@ import { ModelDialog } from './ModelDialog';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { PlaceOffer } from './PlaceCard';
+import { PrintDialog } from './PrintDialog';
 import { ProgramDialog } from './ProgramDialog';
 import { ReadingsDialog } from './ReadingsDialog';
 import { RightPanel } from './RightPanel';
@@ -136,6 +137,7 @@ export function App() {
       {dialog.value === 'help' && <HelpDialog />}
       {dialog.value === 'text' && <ProgramDialog />}
       {dialog.value === 'model' && <ModelDialog />}
+      {dialog.value === 'print' && <PrintDialog />}
       {dialog.value === 'explore' && <ExploreDialog />}
       {dialog.value === 'readings' && <ReadingsDialog />}
       {dropping.value && (

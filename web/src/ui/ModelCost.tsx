@@ -67,8 +67,8 @@ export function WhatIsSent({ host, sees }: { host: string; sees: boolean }) {
         </li>
         {sees && (
           <li>
-            With <em>Suggest sliders</em> and <em>Other readings</em> also one picture of the model with numbers on its
-            parts, where the language model can see.
+            With suggestions, of sliders, of names or of other readings, also one picture of the model with numbers on
+            its parts, where the language model can see.
           </li>
         )}
         <li>Never: the file, its geometry and textures, your other work. Nothing goes anywhere else.</li>

@@ -6,6 +6,7 @@ import { nameOf, partKey } from '../session/document';
 import { relabel } from '../session/open';
 import { document, pointedAt, select, selected, selection, showAll } from '../session/session';
 import { Found } from './Found';
+import { NamesCard } from './NamesCard';
 import { PartsList } from './PartsList';
 import { PlaceCard } from './PlaceCard';
 import { SelectionBar } from './SelectionBar';
@@ -28,6 +29,7 @@ export function PartsPanel({ onEdit }: { onEdit: () => void }) {
       )}
       <SplitCard />
       <PlaceCard />
+      <NamesCard />
       <SelectionBar shape={model.shape} onEdit={onEdit} />
       {selected.value.length < 2 && <SelectedPart />}
     </>

@@ -32,6 +32,7 @@ function exportItems(): MenuItem[] {
       disabled: none || selected.value.length === 0,
       act: () => void exportModel('selected'),
     },
+    { label: 'For printing…', hint: '.stl .3mf', disabled: none, act: () => (dialog.value = 'print') },
     { label: 'Animated by the last slider', hint: '.glb', disabled: noLayer, act: () => void exportModel('animated') },
     { label: 'Model with sliders', hint: 'one .glb', disabled: noLayer, act: () => void exportOneFile() },
     { label: 'Sliders alone', hint: '.sliders.json', disabled: noLayer, act: () => void exportSliders() },
