@@ -192,8 +192,8 @@ describe('a model that lies on its back', () => {
     const standing = await height();
     expect(standing).toBeGreaterThan(1.3 * lyingHeight);
     await offer.getByRole('button', { name: /^Make it .* cm high$/ }).click();
+    await expect.poll(height).toBeCloseTo(standing / 100, 5);
     await expect.poll(() => offer.count()).toBe(0);
-    expect(await height()).toBeCloseTo(standing / 100, 5);
     await page.screenshot({ path: `${outputFolder}/carve-standing.png` });
     expect(await serious(page)).toEqual([]);
 

@@ -109,7 +109,7 @@ export function App() {
           class={`centre ${editsOpen.value ? '' : 'low'}`}
           style={{ paddingLeft: `${insets.left + 12}px`, paddingRight: `${insets.right + 12}px` }}
         >
-          <TourOffer />
+          {cutting.value === null && <TourOffer />}
           <SplitOffer />
           <PlaceOffer />
           <CutCard />
