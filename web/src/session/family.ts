@@ -38,15 +38,11 @@ export async function withProgramRead(core: ModelCore, files: FoundFiles, option
   if (files.program === undefined) return files;
   const { read, glb } = await core.readCad(files.name, files.main, options);
   const beside = files.program.variations;
-  const uncut = read.parts.filter(({ role }) => role !== 'add').length;
   const cad: CadSource = {
     program: read.cad,
     variations: beside === null ? null : variationsIn(beside),
     parts: read.parts,
-    remarks: [
-      ...read.warnings.slice(0, 3).map((text) => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`),
-      ...(uncut > 0 ? [`${uncut} ${uncut === 1 ? 'part' : 'parts'} that cut others are not drawn.`] : []),
-    ],
+    remarks: read.warnings.slice(0, 3).map((text) => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`),
   };
   return { name: files.name, main: glb, external: new Map(), cad };
 }

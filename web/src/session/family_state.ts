@@ -180,6 +180,17 @@ export function absentParts({ family, model, hidden }: Document): ReadonlySet<st
   return new Set(optional.filter((id) => hidden.has(id)));
 }
 
+/** The same by id of the program, with parts that only cut: they go with what they are absent with. */
+export function absentIds(document: Document): ReadonlySet<string> {
+  const { family, model } = document;
+  const cad = model?.files.cad;
+  if (family === undefined || cad === undefined || model === null) return new Set();
+  const ids = shapeIds(cad, model.shape);
+  const hidden = absentParts(document);
+  const gone = family.found.family.optional.filter(({ parts }) => parts.some((id) => hidden.has(ids.get(id) ?? '')));
+  return new Set(gone.flatMap(({ parts }) => parts));
+}
+
 /** The layers that are no sliders of the family. */
 export const editsOf = ({ layers, family }: Document): readonly LayerEntry[] =>
   family === undefined ? layers : layers.filter(({ key }) => !family.keys.includes(key));

@@ -3,7 +3,9 @@ import { computed, signal } from '@preact/signals';
 import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
 import { withExtras } from '../share/extras';
 import { lostWords, type Saved, type Work } from '../share/saved';
+import { carved, carvedAs } from './carve';
 import { converted } from './convert';
+import { firstCuts, isCut } from './cuts';
 import { decompressed } from './decompress';
 import {
   type Document,
@@ -61,7 +63,7 @@ interface Opened {
   readonly work: Work | null;
   /** Of a CAD program. */
   readonly family: FamilySource | null;
-  /** A sentence on sliders in the file that are left out. */
+  /** A sentence on sliders in the file that are left out, or on cuts that are not drawn. */
   readonly refused: string | null;
 }
 
@@ -76,7 +78,8 @@ async function abstract(
     const picked = await withProgramRead(core, await get(options.signal), options);
     const taken = takeSliders(await converted(picked, options));
     const found = given === null ? taken.found : null;
-    const files = await splitAs(given?.saved.split, await decompressed(taken.files, options), core, options);
+    const whole = await splitAs(given?.saved.split, await decompressed(taken.files, options), core, options);
+    const files = await carvedAs(given?.saved.carved, whole, carved, options);
     let labels = labelsOf(given ?? found?.work ?? null);
     let shape = await core.open(files, options, labels);
     const misfits = found?.misfit(shape) ?? null;
@@ -88,9 +91,11 @@ async function abstract(
     await prepare(files);
     options.signal.throwIfAborted();
     const model = { files, source, shape, labels };
-    if (given !== null) return { model, work: given, family, refused: null };
+    if (isCut(files)) options.onProgress({ step: 'cutting parts', done: 0, total: 1 });
+    const uncut = await firstCuts(model, options.signal);
+    if (given !== null) return { model, work: given, family, refused: uncut };
     const own = misfits === null ? (found?.work ?? null) : null;
-    return { model, work: own, family, refused: misfits ?? taken.refused };
+    return { model, work: own, family, refused: misfits ?? taken.refused ?? uncut };
   });
 }
 
