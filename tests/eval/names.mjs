@@ -37,14 +37,18 @@ function setsOf(labels) {
   );
 }
 
-/** The label without what only says a place: as core/shape compares them, near enough for English names. */
-const stem = (label) =>
-  label
+const places = 'left|right|front|back|rear|top|bottom|upper|lower|inner|outer|middle|center|centre';
+const ends = new RegExp(`^(?:${places}) ?(?=.)|(?<=.) ?(?:${places})$`);
+
+/** The label without what only says a place, glued or not: as core/shape compares them, near enough for English names. */
+function stem(label) {
+  let left = label
     .toLowerCase()
     .replace(/[^a-z]+/g, ' ')
-    .split(' ')
-    .filter((word) => !/^(left|right|front|back|rear|top|bottom|upper|lower|inner|outer|middle|center)$/.test(word))
-    .join(' ') || label;
+    .trim();
+  for (let next = left.replace(ends, ''); next !== left; next = left.replace(ends, '')) left = next;
+  return left || label;
+}
 
 const labelsOf = (shape) =>
   new Map(shape.parts.filter(({ virtual }) => !virtual).map((part) => [keyOf(part), stem(part.label)]));
