@@ -11,6 +11,7 @@ import { gapSentences } from '../session/gaps';
 import type { Exported, ExportOptions } from '../session/model_core';
 import { oneFile, slidersOfWork } from '../session/one_file';
 import { openFiles, openSaved } from '../session/open';
+import { asItsFile } from '../session/placing';
 import { document, family as families, run, say, selected } from '../session/session';
 import { cutExport } from '../session/solid';
 import type { RunOptions } from '../session/tasks';
@@ -120,10 +121,23 @@ export async function editedFile(kind: ExportKind, repair: boolean, options: Run
 
 const uncut = 'What is cut changes with the slider: in this file its parts are whole.';
 
-/** @param repair whether gaps are closed, which is then said */
-export async function exportModel(kind: ExportKind, repair = false): Promise<void> {
-  const exported = await run('Writing the file', (options) => editedFile(kind, repair, options));
+interface ExportChoice {
+  /** Turned and sized as it is shown; else as its file was. */
+  readonly asItStands?: boolean;
+  /** Whether gaps are closed, which is then said. */
+  readonly repair?: boolean;
+}
+
+export async function exportModel(
+  kind: ExportKind,
+  { asItStands = false, repair = false }: ExportChoice = {},
+): Promise<void> {
   const { model, unit } = document.peek();
+  const exported = await run('Writing the file', async (options) => {
+    const made = await editedFile(kind, repair, options);
+    if (made === null || model === null || asItStands) return made;
+    return { ...made, glb: await asItsFile(model.files, made.glb, options) };
+  });
   if (exported === null || model === null) return;
   download(
     `${editedName(modelName())}${{ all: '', selected: '.part', animated: '.animated' }[kind]}.glb`,
