@@ -7,7 +7,7 @@ import { distanceAlong } from './drag';
 import { explode, type State } from './explode';
 import type { LoadedModel } from './meshes';
 import { ModelView, noTint } from './model_view';
-import { Overlays } from './overlays';
+import { Overlays, type Sheet } from './overlays';
 import { type Hit, Picker } from './picking';
 import { boundsOfAll, type Picture, type Projection, pictureCamera, shoot } from './pictures';
 
@@ -206,6 +206,18 @@ export class Stage {
   /** Shows the line along which something is pulled. */
   guide(line: { readonly from: Vec3; readonly axis: Vec3 } | null): void {
     this.#actor?.overlays.guide(line);
+    this.invalidate();
+  }
+
+  /** Shows a ruler between points of the normalised frame; null takes it away. */
+  showRuler(points: readonly Vec3[] | null): void {
+    this.#actor?.overlays.ruler(points ?? []);
+    this.invalidate();
+  }
+
+  /** Shows a plane that something is to be cut by. */
+  showSheet(plane: Sheet | null): void {
+    this.#actor?.overlays.sheet(plane);
     this.invalidate();
   }
 

@@ -3,6 +3,7 @@ import { computed, signal } from '@preact/signals';
 import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
 import { withExtras } from '../share/extras';
 import { lostWords, type Saved, type Work } from '../share/saved';
+import { carved, carvedAs } from './carve';
 import { converted } from './convert';
 import { firstCuts, isCut } from './cuts';
 import { decompressed } from './decompress';
@@ -77,7 +78,8 @@ async function abstract(
     const picked = await withProgramRead(core, await get(options.signal), options);
     const taken = takeSliders(await converted(picked, options));
     const found = given === null ? taken.found : null;
-    const files = await splitAs(given?.saved.split, await decompressed(taken.files, options), core, options);
+    const whole = await splitAs(given?.saved.split, await decompressed(taken.files, options), core, options);
+    const files = await carvedAs(given?.saved.carved, whole, carved, options);
     let labels = labelsOf(given ?? found?.work ?? null);
     let shape = await core.open(files, options, labels);
     const misfits = found?.misfit(shape) ?? null;

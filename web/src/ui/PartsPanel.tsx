@@ -8,6 +8,7 @@ import { document, pointedAt, select, selected, selection, showAll } from '../se
 import { Found } from './Found';
 import { NamesCard } from './NamesCard';
 import { PartsList } from './PartsList';
+import { PlaceCard } from './PlaceCard';
 import { SelectionBar } from './SelectionBar';
 import { SplitCard } from './SplitCard';
 import { whyPart } from './why';
@@ -27,6 +28,7 @@ export function PartsPanel({ onEdit }: { onEdit: () => void }) {
         </button>
       )}
       <SplitCard />
+      <PlaceCard />
       <NamesCard />
       <SelectionBar shape={model.shape} onEdit={onEdit} />
       {selected.value.length < 2 && <SelectedPart />}

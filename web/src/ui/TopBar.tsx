@@ -1,4 +1,5 @@
 // Model, history, sharing, export, help, theme.
+import { isPlaced } from '../session/placing';
 import { document, redo, redoLabel, selected, undo, undoLabel } from '../session/session';
 import {
   dialog,
@@ -22,6 +23,21 @@ function exportItems(): MenuItem[] {
   const noLayer = none || !layers.some(({ enabled }) => enabled);
   return [
     { label: 'Edited model', hint: '.glb', disabled: none, act: () => void exportModel('all') },
+    ...(model !== null && isPlaced(model.files)
+      ? [
+          {
+            label: 'Edited model as it stands here',
+            hint: '.glb',
+            act: () => void exportModel('all', { asItStands: true }),
+          },
+        ]
+      : []),
+    {
+      label: 'Edited model, gaps closed',
+      hint: '.glb',
+      disabled: noLayer,
+      act: () => void exportModel('all', { repair: true }),
+    },
     {
       label: selected.value.length > 1 ? 'Selected parts only' : 'Selected part only',
       hint: '.glb',
