@@ -21,8 +21,6 @@ using nlohmann::json;
 
 /// A row of more is named once: prompt and reply would be nothing but its instances.
 constexpr std::size_t most_listed_instances = 8;
-/// Parts that a prompt may list; a reply names as many.
-constexpr std::size_t most_named = 200;
 constexpr std::size_t longest_name = 60;
 constexpr std::array fronts = {"+z", "-z", "+x", "-x"};
 const std::string prefix = "part_";
