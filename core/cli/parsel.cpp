@@ -149,11 +149,14 @@ int run(int argc, char** argv) {
 }  // namespace parsel::cli
 
 int main(int argc, char** argv) {
+  int code = parsel::cli::exit_refused;
   try {
-    return parsel::cli::run(argc, argv);
+    code = parsel::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {
-    return parsel::cli::refuse({"cli", "", "there is not enough memory for this input", "try a smaller model"});
+    code = parsel::cli::refuse({"cli", "", "there is not enough memory for this input", "try a smaller model"});
   } catch (const std::exception& error) {
-    return parsel::cli::refuse({"cli", "", std::string("internal error: ") + error.what(), "please report it"});
+    code = parsel::cli::refuse({"cli", "", std::string("internal error: ") + error.what(), "please report it"});
   }
+  std::cout.flush();  // a module that goes on living when this returns flushes nothing by itself
+  return code;
 }

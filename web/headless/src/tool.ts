@@ -31,7 +31,7 @@ export async function runTool(args: readonly string[], memory = mostMemory): Pro
   const make = createRequire(import.meta.url)('./parsel-tool.cjs') as MakeTool;
   compiled ??= WebAssembly.compile(readFileSync(new URL('./parsel-tool.wasm', import.meta.url)));
   const code = await compiled;
-  let status = 0;
+  let status: number | undefined;
   let fails: (error: unknown) => void;
   const failed = new Promise<never>((_, reject) => {
     fails = reject;
@@ -52,6 +52,6 @@ export async function runTool(args: readonly string[], memory = mostMemory): Pro
       },
     }),
   ]);
-  tool.callMain([...args]);
-  return status;
+  const returned = tool.callMain([...args]);
+  return status ?? returned ?? 0;
 }
