@@ -1,12 +1,12 @@
 // The `parsel` command-line tool: finds the command, parses its options, runs it.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/cli/command.h"
 
@@ -49,13 +49,20 @@ Result<std::string> read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return Error{"cli", path, "the file cannot be opened", "check the path and its permissions"};
   std::error_code unknown;  // of a pipe, which is then read to its end
-  if (const auto size = std::filesystem::file_size(path, unknown); !unknown && size > largest_file) {
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  if (!unknown && size > largest_file) {
     return Error{"cli", path, "the file is larger than 1 GiB", "simplify the model, or give another file"};
   }
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  if (!file.good() && !file.eof()) return Error{"cli", path, "reading failed", "check that it is a file, not a folder"};
-  return std::move(bytes).str();
+  // Into a string and not through a stream, which would keep to itself that memory ended.
+  std::string bytes;
+  if (!unknown) bytes.reserve(static_cast<std::size_t>(size));
+  std::array<char, 1 << 16> chunk;
+  do {
+    file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    bytes.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+  } while (file);
+  if (!file.eof()) return Error{"cli", path, "reading failed", "check that it is a file, not a folder"};
+  return bytes;
 }
 
 Status write_file(const std::string& path, std::string_view bytes) {
