@@ -48,6 +48,10 @@ Footing footing_of(const Corners& corners) {
   return footing;
 }
 
+double area_on_floor(const Vec3& low, const Vec3& high) {
+  return (high.x() - low.x()) * (high.z() - low.z());
+}
+
 /// The rigid motion that takes `before` nearest to `after` (Kabsch 1976).
 std::pair<Mat3, Vec3> rigid_motion(const Corners& before, const Corners& after) {
   const Vec3 a = before.colwise().mean().transpose(), b = after.colwise().mean().transpose();
@@ -78,6 +82,7 @@ class Alternatives : public Attempt {
     if (!seeds.ok()) return false;
     seeds_ = std::move(seeds->edits);
     at_ = seeds->at;
+    feet_ = standing();
     layer_.statements = std::move(seeds->statements);
     trace_.steps = std::move(seeds->trace);
     trace_.notes = std::move(seeds->notes);
@@ -161,7 +166,7 @@ class Alternatives : public Attempt {
       problem.contacts[r] = contact_of(shape_.parts[relation.parts[0]].hexahedron.corners,
                                        shape_.parts[relation.parts[1]].hexahedron.corners);
     }
-    for (auto& [part, footing] : standing()) {
+    for (auto [part, footing] : feet_) {
       if (restriction.feet_stay) footing.mask = Vec3::Ones();
       problem.footings[part] = std::move(footing);
     }
@@ -176,8 +181,12 @@ class Alternatives : public Attempt {
   /// are not to blame.
   Feet standing() const {
     Feet feet;
-    double floor = std::numeric_limits<double>::infinity();
-    for (const Part& part : shape_.parts) floor = std::min(floor, part.hexahedron.corners.col(1).minCoeff());
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Part& part : shape_.parts) {
+      low = low.cwiseMin(part.hexahedron.corners.colwise().minCoeff().transpose());
+      high = high.cwiseMax(part.hexahedron.corners.colwise().maxCoeff().transpose());
+    }
+    const double floor = low.y();
     bool could_stand = false;
     for (const RelationIndex r : shape_.relations.indices()) {
       const auto* ground = std::get_if<Ground>(&shape_.relations[r].detail);
@@ -189,6 +198,11 @@ class Alternatives : public Attempt {
     for (const PartIndex part : graph_.parts()) {
       const Corners& corners = shape_.parts[part].hexahedron.corners;
       if (!could_stand && corners.col(1).minCoeff() <= floor + floor_distance) feet.emplace(part, footing_of(corners));
+    }
+    const double extent = std::max(area_on_floor(low, high), noise);
+    for (auto& [part, footing] : feet) {
+      const Corners& corners = shape_.parts[part].hexahedron.corners;
+      footing.share = area_on_floor(corners.colwise().minCoeff(), corners.colwise().maxCoeff()) / extent;
     }
     for (const PartIndex part : graph_.parts()) {
       if (!is_seed(part)) continue;
@@ -242,7 +256,7 @@ class Alternatives : public Attempt {
       nearest.insert(around.begin(), around.end());
     }
     Restriction standing_parts = free;
-    for (const auto& [part, footing] : standing()) {
+    for (const auto& [part, footing] : feet_) {
       if (!is_seed(part)) standing_parts.held.insert(part);
     }
     if (standing_parts.held.size() > free.held.size()) consider(standing_parts);
@@ -260,25 +274,29 @@ class Alternatives : public Attempt {
     return state.cost + (moves_as_one(state.edits) ? problem.options.prices.all_rigid : 0);
   }
 
-  /// Whether every part moves, and all by one rigid motion: nothing has changed but the place. Not where all parts are
-  /// seeds or have a hint: then it was asked for.
+  /// Whether nothing has changed but the place of the model: all that stands on the floor, beyond the seeds, moves by one
+  /// rigid motion, or, where nothing stands, every part. Not where all of these have a hint or are seeds: then it was
+  /// asked for.
   bool moves_as_one(const Edits& edits) const {
-    const PartIndex* first = nullptr;
-    bool all_asked = true;
-    std::size_t tied = 0;
-    for (const PartIndex& part : graph_.parts()) {
-      if (graph_.relations(part).empty() && !is_seed(part)) continue;
-      ++tied;
-      if (!edits[part] || edits[part]->steps.empty()) return false;
-      all_asked = all_asked && (is_seed(part) || request_.hints.count(part) > 0);
-      if (first == nullptr) first = &part;
+    std::vector<PartIndex> body;
+    for (const auto& [part, footing] : feet_) {
+      if (!is_seed(part)) body.push_back(part);
     }
-    if (first == nullptr || all_asked || tied < 2) return false;
-    for (const std::size_t s : {std::size_t{0}, sample_count - 1}) {
-      const Corners& rest = shape_.parts[*first].hexahedron.corners;
-      const auto [rotation, shift] = rigid_motion(rest, rest + edits[*first]->motion[s]);
+    if (feet_.empty()) {
       for (const PartIndex part : graph_.parts()) {
-        if (!edits[part]) continue;
+        if (!graph_.relations(part).empty() || is_seed(part)) body.push_back(part);
+      }
+      if (body.size() < 2) return false;
+    }
+    const auto is_asked = [&](PartIndex part) { return is_seed(part) || request_.hints.count(part) > 0; };
+    if (body.empty()) return false;
+    if (std::all_of(body.begin(), body.end(), is_asked)) return false;
+    const auto moves = [&](PartIndex part) { return edits[part] && !edits[part]->steps.empty(); };
+    if (!std::all_of(body.begin(), body.end(), moves)) return false;
+    for (const std::size_t s : {std::size_t{0}, sample_count - 1}) {
+      const Corners& rest = shape_.parts[body.front()].hexahedron.corners;
+      const auto [rotation, shift] = rigid_motion(rest, rest + edits[body.front()]->motion[s]);
+      for (const PartIndex part : body) {
         const Corners& before = shape_.parts[part].hexahedron.corners;
         const Corners moved = (before * rotation.transpose()).rowwise() + shift.transpose();
         if ((moved - before - edits[part]->motion[s]).cwiseAbs().maxCoeff() > rigid_noise) return false;
@@ -301,7 +319,6 @@ class Alternatives : public Attempt {
   /// The neighbours of some parts that belong to the body of the model: what is left of the graph of joints without
   /// those parts falls into pieces; a piece stays when it stands on the floor, or when it is the largest.
   std::set<PartIndex> body_beyond(const std::set<PartIndex>& nearest) const {
-    const Feet feet = standing();
     PartData<int> piece(shape_.parts.size(), -1);
     std::vector<double> size;
     std::vector<bool> stands;
@@ -317,7 +334,7 @@ class Alternatives : public Attempt {
         open.pop_back();
         const Corners& corners = shape_.parts[part].hexahedron.corners;
         size.back() += (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).norm();
-        stands.back() = stands.back() || feet.count(part) > 0;
+        stands.back() = stands.back() || feet_.count(part) > 0;
         for (const PartIndex other : neighbours_of({part})) {
           if (nearest.count(other) > 0 || piece[other] >= 0) continue;
           piece[other] = number;
@@ -480,6 +497,7 @@ class Alternatives : public Attempt {
   Graph graph_;
   SymbolicGoals goals_;
   Edits seeds_;
+  Feet feet_;  ///< see standing()
   SearchState found_;
   Samples at_{};
   std::set<PartIndex> held_;  ///< parts that stay without having been decided upon

@@ -369,6 +369,25 @@ class Proposer {
 
 }  // namespace
 
+static double price_of_footing(const Prices& prices, const Footing& footing, const Motion& motion) {
+  double off = 0;
+  bool dragged = false;
+  for (const std::size_t s : {std::size_t{0}, sample_count - 1}) {
+    Vec3 mean = Vec3::Zero();
+    double least = std::numeric_limits<double>::infinity();
+    for (const Weights& point : footing.points) {
+      Vec3 moved = interpolate(point, motion[s]);
+      off = std::max(off, moved.cwiseProduct(footing.mask).cwiseAbs().maxCoeff());
+      moved.y() = 0;
+      mean += moved / static_cast<double>(footing.points.size());
+      least = std::min(least, moved.norm());
+    }
+    // What stretches to both sides, or away from an end that stays, is not dragged.
+    dragged = dragged || (std::isfinite(least) && std::min(least, mean.norm()) > exact);
+  }
+  return (off > exact ? prices.broken_ground : 0) + (dragged ? prices.dragged * footing.share : 0);
+}
+
 double price_of_relations(const Problem& problem, const Edits& edits, PartIndex part,
                           const std::vector<PointConstraint>& constraints, const Motion& motion) {
   const Shape& shape = problem.graph.shape();
@@ -391,18 +410,12 @@ double price_of_relations(const Problem& problem, const Edits& edits, PartIndex 
         if (!worst) worst = ContactChange{};
         if (std::abs(now.apart) > std::abs(worst->apart)) worst->apart = now.apart;
         worst->lost = std::max(worst->lost, now.lost);
+        worst->hinged = (s == 0 || worst->hinged) && now.hinged;
       }
     }
     cost += price_of_relation(prices, relation, by, tolerance, worst);
   }
-  if (const auto& footing = problem.footings[part]) {
-    double off = 0;
-    for (const Weights& point : footing->points) {
-      for (const std::size_t s : {std::size_t{0}, sample_count - 1})
-        off = std::max(off, interpolate(point, motion[s]).cwiseProduct(footing->mask).cwiseAbs().maxCoeff());
-    }
-    if (off > exact) cost += prices.broken_ground;
-  }
+  if (const auto& footing = problem.footings[part]) cost += price_of_footing(prices, *footing, motion);
   return cost;
 }
 

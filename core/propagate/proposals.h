@@ -32,6 +32,7 @@ struct ProposalOptions {
 struct Footing {
   std::vector<Weights> points;  ///< its lowest, by their weights in its hexahedron
   Vec3 mask = Vec3::UnitY();    ///< the directions in which they stay
+  double share = 0;             ///< of the shape's extent on the floor, as areas
 };
 
 /// What the search knows.
