@@ -8,6 +8,7 @@
 
 #include "core/base/tolerance.h"
 #include "core/prove/scope.h"
+#include "core/shape/hexahedron.h"
 
 namespace parsel {
 
@@ -62,6 +63,22 @@ double depth(const Corners& a, const Corners& b) {
     }
   }
   return least;
+}
+
+/// By how much the surfaces that touched are apart, across them, where they are nearest: parts may slide.
+double surfaces_apart(const ContactPatch& patch, const Corners& a, const Corners& b) {
+  std::array<Vec3, 4> on_a;
+  for (std::size_t k = 0; k < 4; ++k) on_a[k] = interpolate(trilinear_weights(patch.local_a[k]), a);
+  const Vec3 across = (on_a[1] - on_a[0]).cross(on_a[2] - on_a[0]);
+  if (across.norm() < parallel) return 0;  // a line or a point has no side
+  const Vec3 rest_across = patch.half_sides[0].cross(patch.half_sides[1]);
+  const Vec3 normal = across.normalized() * (rest_across.dot(patch.normal) < 0 ? -1 : 1);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 on_b = interpolate(trilinear_weights(patch.local_b[k]), b);
+    least = std::min(least, (on_b - on_a[k]).dot(normal));
+  }
+  return std::max(0.0, least);
 }
 
 double thickness(const Corners& corners) {
@@ -150,10 +167,13 @@ void Clearance::find_gaps(const State& state, std::vector<Fault>& found) const {
     if (shape_.parts[a].is_virtual() || shape_.parts[b].is_virtual()) continue;
     if (edited_.count(a) == 0 && edited_.count(b) == 0) continue;
     if (has_changed_count(a, state) || has_changed_count(b, state)) continue;
-    const double apart = -depth(state.parts[a], state.parts[b]);
-    if (apart <= seen_gap) continue;
-    const double before = std::max(0.0, -depth(at_rest_.parts[a], at_rest_.parts[b]));
-    if (apart > seen_gap + before) found.push_back({a, b, true});
+    const auto& patch = std::get<Attachment>(relation.detail).patch;
+    const auto apart = [&](const State& s) {
+      const double boxes = std::max(0.0, -depth(s.parts[a], s.parts[b]));
+      return patch ? std::max(boxes, surfaces_apart(*patch, s.parts[a], s.parts[b])) : boxes;
+    };
+    const double gap = apart(state);
+    if (gap > seen_gap && gap > seen_gap + apart(at_rest_)) found.push_back({a, b, true});
   }
 }
 

@@ -20,7 +20,7 @@ inline constexpr double seen_depth = 0.008, seen_gap = 0.014;
 /// Parts are seen as their hexahedra, the instances of a group one by one. Two that overlap at rest, by more than half
 /// of the thinner one's thickness or by delta_both_edited, are not looked at, as the box of a whole cabinet holds its
 /// shelves; nor are two instances of one group, nor instances whose number the layer has changed. Parts that touched are
-/// those that a joint ties.
+/// those that a joint ties; they are apart when their boxes are, or, across it, the patch in which their surfaces met.
 ///
 /// The depth of an overlap is the smallest along the boxes' face normals and the cross products of their edges, and so is
 /// a gap, but for the sign (Gottschalk, Lin and Manocha 1996, OBBTree, §5): depths are exact for boxes, gaps no larger
