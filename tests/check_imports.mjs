@@ -17,7 +17,7 @@ const rooms = {
     rule: 'program reads, checks and evaluates programs and nothing else; it also runs where there is no page',
   },
   scene: {
-    may: ['program'],
+    may: ['program', 'carve/steps'],
     packages: ['three', 'camera-controls'],
     rule: 'scene draws what it is given; it knows neither the session nor the core',
   },
@@ -26,9 +26,19 @@ const rooms = {
     packages: ['three', '@gltf-transform', 'fflate'],
     rule: 'formats makes a GLB of files of other formats and nothing else; it also runs where there is no page',
   },
+  carve: {
+    may: ['formats/read_gltf'],
+    packages: ['@gltf-transform'],
+    rule: 'carve changes what is one part of a glTF file and nothing else; it also runs where there is no page',
+  },
+  solid: {
+    may: [],
+    packages: ['manifold-3d', 'fflate', '@gltf-transform'],
+    rule: 'solid makes one closed surface of triangles and writes it for printers; it also runs where there is no page',
+  },
   worker: {
-    may: ['scene/load', 'formats'],
-    packages: ['valibot', 'parsel-module', 'draco3dgltf', 'meshoptimizer', '@gltf-transform'],
+    may: ['scene/load', 'formats', 'carve', 'solid'],
+    packages: ['valibot', 'parsel-module', 'draco3dgltf', 'meshoptimizer', '@gltf-transform', 'manifold-3d'],
     rule: 'worker is the way to the core and back; of the page it knows the type of a file alone, and what reads files',
   },
   llm: {
@@ -37,17 +47,17 @@ const rooms = {
     rule: 'llm asks language models; what prompts and replies mean is the business of the core and the session',
   },
   share: {
-    may: ['program', 'scene/camera', 'session/document', 'session/family_state'],
+    may: ['program', 'scene/camera', 'carve/steps', 'carve/placing', 'session/document', 'session/family_state'],
     packages: ['valibot'],
     rule: 'share writes and reads saved work; of the session it knows the type of the work alone',
   },
   session: {
-    may: ['program', 'scene', 'formats', 'worker', 'llm', 'share'],
+    may: ['program', 'scene', 'formats', 'carve/steps', 'carve/placing', 'solid', 'worker', 'llm', 'share'],
     packages: ['@preact/signals', 'valibot', 'idb-keyval', 'fflate', 'parsel-module', 'draco3dgltf'],
     rule: 'session is the state of the page and what can be done to it, without a single element of the page',
   },
   ui: {
-    may: ['program', 'scene', 'worker', 'llm', 'share', 'session'],
+    may: ['program', 'scene', 'carve/placing', 'worker', 'llm', 'share', 'session'],
     packages: ['preact', '@preact/signals'],
     rule: 'ui shows the session and calls it; drawing, storing and asking are done in their rooms',
   },

@@ -30,8 +30,8 @@ const rooms = {
     rule: 'check is worth something only as long as it shares no code with what it checks: base, shape and the types of programs',
   },
   infer: {
-    may: ['base', 'shape', 'edit', 'propagate/edit_request.h', 'propagate/transfer.h'],
-    rule: 'infer speaks to language models about shapes and edits; of the search it knows the request alone',
+    may: ['base', 'shape', 'edit', 'propagate/edit_request.h', 'propagate/transfer.h', 'cad', 'family/vote.h'],
+    rule: 'infer speaks to language models about shapes, edits and CAD models; of the search it knows the request alone, of families how variations are voted on',
   },
   cad: {
     may: ['base', 'amount/number.h', 'shape/label.h', 'gallery/glb_writer.h'],

@@ -9,6 +9,9 @@
 #include "core/family/family_program.h"
 #include "core/family/family_scad.h"
 #include "core/gallery/programs.h"
+#include "core/infer/cad_task.h"
+#include "core/infer/prompt.h"
+#include "core/infer/variation_reply.h"
 
 namespace parsel::wasm {
 
@@ -126,6 +129,52 @@ Result<Output> family_text(const Input& input) {
   family::Shown shown{Eigen::VectorXd(static_cast<Eigen::Index>(setting.size())), with.get<std::vector<bool>>()};
   for (std::size_t k = 0; k < setting.size(); ++k) shown.setting[static_cast<Eigen::Index>(k)] = setting[k];
   return Output{{{"scad", family_scad(*family, shown)}, {"sets", parameter_sets(*family)}}, {}};
+}
+
+namespace {
+
+struct Asked {
+  cad::Model model;
+  const CadTask* task;
+  std::string kind;
+};
+
+Result<Asked> asked_of(const json& parameters) {
+  Result<cad::Model> model = cad::model_from_json(parameters.value("cad", json()));
+  if (!model.ok()) return model.error();
+  const json task = parameters.value("task", json()), kind = parameters.value("kind", json());
+  const CadTask* known = task.is_string() ? find_cad_task(task.get_ref<const std::string&>()) : nullptr;
+  if (known == nullptr) return not_as_agreed("task", "a task about a CAD program");
+  if (!kind.is_string()) return not_as_agreed("kind", "a text");
+  return Asked{std::move(*model), known, kind.get<std::string>()};
+}
+
+}  // namespace
+
+Result<Output> cad_prompt(const Input& input) {
+  const Result<Asked> asked = asked_of(input.parameters);
+  if (!asked.ok()) return asked.error();
+  const json count = input.parameters.value("count", json());
+  if (!count.is_number_integer()) return not_as_agreed("count", "a whole number");
+  const auto wanted = static_cast<int>(std::clamp<std::int64_t>(count.get<std::int64_t>(), -1, 1000));
+  const Result<CadPrompt> prompt = make_prompt(asked->model, *asked->task, {asked->kind, wanted});
+  if (!prompt.ok()) return prompt.error();
+  return Output{
+      {{"prompt", to_json(*prompt)}, {"words", asked->task->words}, {"schema", reply_schema(asked->task->name)}}, {}};
+}
+
+Result<Output> read_cad_replies(const Input& input) {
+  const Result<Asked> asked = asked_of(input.parameters);
+  if (!asked.ok()) return asked.error();
+  std::vector<std::string> texts;
+  for (const json& text : input.parameters.value("texts", json::array())) {
+    if (!text.is_string()) return not_as_agreed("texts", "a list of texts");
+    texts.push_back(text.get<std::string>());
+  }
+  const Result<json> read =
+      asked->task->about_kind ? read_variation(asked->model, asked->kind, texts) : read_kinds(asked->model, texts);
+  if (!read.ok()) return read.error();
+  return Output{*read, {}};
 }
 
 Result<Output> cad_gallery(const Input&) {

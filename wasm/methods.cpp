@@ -307,20 +307,20 @@ Result<Output> prompts(const Input& input) {
   json list = json::array(), tasks = json::object();
   for (const Prompt& prompt : *made) list.push_back(to_json(model->shape, prompt));
   for (const Task* task : all_tasks()) {
-    if (task->proposals > 0) continue;
+    if (task->is_alone()) continue;
     tasks[std::string(task->name)] = {{"words", task->words}, {"schema", reply_schema(*task)}};
   }
   return Output{{{"prompts", std::move(list)}, {"tasks", std::move(tasks)}}, {}};
 }
 
-/// task: the name of one that proposes requests; request (empty for a task about the model alone) and mentioned as in
+/// task: the name of one that is asked on its own; request (empty for a task about the model alone) and mentioned as in
 /// wish_of(); count; picture: whether one goes along.
 Result<Output> proposal_prompt(const Input& input) {
   if (!model) return no_model();
   const Result<std::string> name = text_parameter(input, "task");
   if (!name.ok()) return name.error();
   const Task* task = find_task(*name);
-  if (task == nullptr || task->proposals == 0) return wrong_parameter("task", "a task that proposes requests");
+  if (task == nullptr || !task->is_alone()) return wrong_parameter("task", "a task that is asked on its own");
   Result<EditWish> wish = wish_of(input);
   if (!wish.ok()) return wish.error();
   const json count = input.parameters.value("count", json()), picture = input.parameters.value("picture", json());
@@ -330,7 +330,7 @@ Result<Output> proposal_prompt(const Input& input) {
   const Result<Prompt> made = make_prompt(model->shape, *wish, *task);
   if (!made.ok()) return made.error();
   json numbered = json::array();
-  for (const PartIndex part : numbered_parts(model->shape)) numbered.push_back(model->shape.parts[part].id);
+  for (const PartIndex part : numbered_parts(model->shape, *task)) numbered.push_back(model->shape.parts[part].id);
   return Output{{{"prompt", to_json(model->shape, *made)},
                  {"words", task->words},
                  {"schema", reply_schema(*task)},
@@ -395,6 +395,8 @@ constexpr std::array all_methods = {
     Method{"open_cad", open_cad},
     Method{"find_family", find_family},
     Method{"family_text", family_text},
+    Method{"cad_prompt", cad_prompt},
+    Method{"read_cad_replies", read_cad_replies},
     Method{"cad_gallery", cad_gallery},
     Method{"memory", memory},
     Method{"fail", fail},

@@ -11,6 +11,8 @@ const modules = join(root, 'web/node_modules');
 
 /** What the service worker is made of, by way of vite-plugin-pwa. */
 const ofTheServiceWorker = ['workbox-core', 'workbox-precaching', 'workbox-routing', 'workbox-strategies'];
+/** Whose dependencies are for a tool of theirs that the page does not use. */
+const withTools: readonly string[] = ['manifold-3d'];
 /** For packages that name their licence but bring no text. */
 const texts: Readonly<Record<string, string>> = { 'Apache-2.0': 'web/tools/apache-2.0.txt' };
 
@@ -32,6 +34,7 @@ export function packages(): readonly Manifest[] {
     if (found.has(name) || !existsSync(folder)) return;
     const manifest = manifestOf(folder);
     found.set(name, manifest);
+    if (withTools.includes(name)) return;
     for (const other of Object.keys(manifest.dependencies ?? {})) visit(other);
   };
   for (const name of Object.keys(manifestOf(join(root, 'web')).dependencies ?? {})) visit(name);

@@ -1,5 +1,6 @@
 #include "core/cli/task.h"
 
+#include "core/infer/cad_task.h"
 #include "core/shape/words.h"
 
 namespace parsel::cli {
@@ -10,6 +11,7 @@ Result<AskedTask> asked_task(const Arguments& arguments, const Shape& shape) {
   if (task == nullptr) {
     std::string all;
     for (const Task* known : all_tasks()) all += (all.empty() ? "" : ", ") + std::string(known->name);
+    for (const CadTask* known : all_cad_tasks()) all += ", " + std::string(known->name) + " (of a CAD program)";
     return Error{"cli", "--task", "there is no task '" + name + "'", "use one of " + all};
   }
   if (!task->asks_about) {

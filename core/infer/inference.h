@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/infer/edit_assembly.h"
+#include "core/infer/part_names.h"
 #include "core/infer/proposals.h"
 #include "core/infer/seed_edit.h"
 
@@ -33,6 +34,7 @@ struct Inference {
   std::vector<HintVote> hints;
   std::vector<RelationVote> relations;
   Proposals proposals;
+  NamesVote names;
   std::vector<RefusedReply> refused;
   std::optional<EditRequest> edit;  ///< of the first reading; nothing when there is none
 };
@@ -44,7 +46,8 @@ Result<std::vector<Replies>> replies_from_json(const Shape& shape, const nlohman
 
 /// {"seed": {"outcome", "readings": [{"statements", "words", "votes"}], "of", "reason"}, "hints": [{"part", "hint",
 /// "votes", "of"}], "relations": [{"relation", "keep", "votes", "of", "words"}], "proposals": {"requests":
-/// [{"request", "changes": [ids], "keeps": [ids]}], "dropped": [{"request", "reason"}]}, "refused": [{"task", "relation",
+/// [{"request", "changes": [ids], "keeps": [ids]}], "dropped": [{"request", "reason"}]}, "names": {"category", "category_votes", "front", "front_votes", "of", "parts":
+/// [{"part", "label", "votes"}]}, "refused": [{"task", "relation",
 /// "vote", "error"}], "edit": parsel/edit v1 or null}
 nlohmann::json to_json(const Shape& shape, const Inference& inference);
 

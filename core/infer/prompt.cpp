@@ -20,29 +20,20 @@ struct Template {
   std::string_view version, text;
 };
 
-const PromptText& text_of(const Task& task) {
+const PromptText& text_of(std::string_view task) {
   const auto texts = prompt_texts();
-  const auto found = std::find_if(texts.begin(), texts.end(), [&](const PromptText& t) { return t.task == task.name; });
+  const auto found = std::find_if(texts.begin(), texts.end(), [&](const PromptText& t) { return t.task == task; });
   PARSEL_ASSERT(found != texts.end(), "every task has a template");
   return *found;
 }
 
 /// The first line is "<!-- version N -->", then a blank one.
-Template read_template(const Task& task) {
+Template read_template(std::string_view task) {
   const std::string_view file = text_of(task).markdown;
   constexpr std::string_view opening = "<!-- version ", closing = " -->\n\n";
   const std::size_t end = file.find(closing);
   PARSEL_ASSERT(file.starts_with(opening) && end != file.npos, "a template begins with its version");
   return {file.substr(opening.size(), end - opening.size()), file.substr(end + closing.size())};
-}
-
-/// On one line between double quotes, escaped as in JSON; without backquotes, so that no code block can open.
-std::string quoted_request(const std::string& request) {
-  std::string text = printable(request, ProgramLimits::request_bytes);
-  for (char& c : text) {
-    if (c == '`') c = '\'';
-  }
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string fill(std::string_view text, const Places& places) {
@@ -76,9 +67,9 @@ Status check(const EditWish& wish, const Task& task) {
     return Error{stage, "request", "the task " + std::string(task.name) + " is about the model alone",
                  "leave the request out"};
   }
-  if (task.proposals == 0 && (wish.count != 0 || wish.picture)) {
-    return Error{stage, wish.picture ? "picture" : "count", "the task " + std::string(task.name) + " proposes nothing",
-                 "leave count and picture out"};
+  if ((task.proposals == 0 && wish.count != 0) || (!task.is_alone() && wish.picture)) {
+    return Error{stage, wish.count != 0 ? "count" : "picture", "the task " + std::string(task.name) + " takes none",
+                 "leave it out"};
   }
   if (wish.count < 0 || wish.count > most_proposals) {
     return Error{stage, "count", "it is not from 1 to " + std::to_string(most_proposals),
@@ -88,11 +79,12 @@ Status check(const EditWish& wish, const Task& task) {
 }
 
 /// A paragraph.
-std::string picture_words(const Shape& shape) {
-  std::string text = "The picture shows the model from its front, its left side and above, with numbers on its parts: ";
+std::string picture_words(const Shape& shape, const Task& task) {
+  std::string text = "The picture shows the model from its front, its left side and above, with numbers on its parts";
+  if (task.numbered != nullptr) return text + ": 1 on part_1, and so on.\n";
   int number = 0;
-  for (const PartIndex part : numbered_parts(shape)) {
-    text += (number == 0 ? "" : ", ") + std::to_string(number + 1) + " " + shape.parts[part].id;
+  for (const PartIndex part : numbered_parts(shape, task)) {
+    text += (number == 0 ? ": " : ", ") + std::to_string(number + 1) + " " + shape.parts[part].id;
     ++number;
   }
   return text + ".\n";
@@ -110,13 +102,28 @@ Result<std::vector<PartIndex>> mentioned_parts(const Shape& shape, const EditWis
 
 }  // namespace
 
+std::string quoted_words(std::string_view words) {
+  std::string text = printable(words, ProgramLimits::request_bytes);
+  for (char& c : text) {
+    if (c == '`') c = '\'';
+  }
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+Rendered render(std::string_view task, const Places& places) {
+  const Template from = read_template(task);
+  Rendered made{fill(from.text, places), {}, std::string(from.version)};
+  made.hash = sha256_hex(made.text);
+  return made;
+}
+
 Result<std::vector<PartIndex>> check_wish(const Shape& shape, const EditWish& wish) {
   if (const Status checked = check(wish); !checked.ok()) return checked.error();
   return mentioned_parts(shape, wish);
 }
 
-std::vector<PartIndex> numbered_parts(const Shape& shape) {
-  return active_parts(shape);
+std::vector<PartIndex> numbered_parts(const Shape& shape, const Task& task) {
+  return task.numbered == nullptr ? active_parts(shape) : task.numbered(shape);
 }
 
 Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task& task, AboutRelation relation) {
@@ -134,17 +141,14 @@ Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task&
   if (!parts.ok()) return parts.error();
   std::string mentioned;
   for (const PartIndex part : *parts) mentioned += (mentioned.empty() ? "" : ", ") + shape.parts[part].id;
-  const Template from = read_template(task);
-  Prompt prompt{&task, relation, {}, {}, std::string(from.version)};
   Places places = {{"shape", describe(shape)},
-                   {"request", quoted_request(wish.request)},
+                   {"request", quoted_words(wish.request)},
                    {"mentioned", mentioned.empty() ? "none" : mentioned},
                    {"count", std::to_string(wish.count == 0 ? task.proposals : wish.count)},
-                   {"picture", wish.picture ? picture_words(shape) : ""}};
+                   {"picture", wish.picture ? picture_words(shape, task) : ""}};
   if (task.places) places.merge(task.places(shape, relation));
-  prompt.text = fill(from.text, places);
-  prompt.hash = sha256_hex(prompt.text);
-  return prompt;
+  Rendered made = render(task.name, places);
+  return Prompt{&task, relation, std::move(made.text), std::move(made.hash), std::move(made.version)};
 }
 
 Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wish) {
@@ -156,7 +160,7 @@ Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wis
     return success();
   };
   for (const Task* task : all_tasks()) {
-    if (task->asks_about || task->proposals > 0) continue;
+    if (task->asks_about || task->is_alone()) continue;
     if (const Status s = add(task, {}); !s.ok()) return s.error();
   }
   for (const RelationIndex r : active_relations(shape)) {
@@ -175,8 +179,12 @@ nlohmann::json to_json(const Shape& shape, const Prompt& prompt) {
           {"version", prompt.version}};
 }
 
-nlohmann::json reply_schema(const Task& task) {
+nlohmann::json reply_schema(std::string_view task) {
   return nlohmann::json::parse(text_of(task).schema);
+}
+
+nlohmann::json reply_schema(const Task& task) {
+  return reply_schema(task.name);
 }
 
 }  // namespace parsel

@@ -23,8 +23,9 @@ struct EditWish {
   bool picture = false;                ///< of the model, with numbers on its parts, goes along with the prompt
 };
 
-/// What stands under the number i + 1 in the picture that goes along with a prompt: the active parts.
-std::vector<PartIndex> numbered_parts(const Shape& shape);
+/// What stands under the number i + 1 in the picture that goes along with a task's prompt: the active parts, or those
+/// that the task numbers.
+std::vector<PartIndex> numbered_parts(const Shape& shape, const Task& task);
 
 /// The parts that a wish mentions; or why it cannot be asked: blank, too long, or about parts that are not there.
 Result<std::vector<PartIndex>> check_wish(const Shape& shape, const EditWish& wish);
@@ -37,18 +38,32 @@ struct Prompt {
   std::string version;  ///< of the template
 };
 
-/// `relation` is needed by the tasks that ask about one, of the kind that they ask about, and refused by the others; so is
-/// the wish's request. A count and a picture are for the tasks that propose.
+/// `relation` is needed by the tasks that ask about one, of the kind that they ask about, and refused by the others; so
+/// is the wish's request. A count and a picture are for the tasks that propose.
 Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task& task, AboutRelation relation = {});
 
-/// Every prompt that a request is read by: those about the whole of it, then one for each active relation that a task asks about
-/// (all groups standing).
+/// Every prompt that a request is read by: those about the whole of it, then one for each active relation that a task
+/// asks about (all groups standing).
 Result<std::vector<Prompt>> make_prompts(const Shape& shape, const EditWish& wish);
+
+/// What a template says once its places are filled.
+struct Rendered {
+  std::string text;
+  std::string hash;     ///< SHA-256 of the text, in hex
+  std::string version;  ///< of the template
+};
+/// The template prompts/<task>.md, which there is, with its places filled.
+Rendered render(std::string_view task, const Places& places);
+
+/// Words of a person as a template may hold them: on one line between double quotes, escaped as in JSON, without
+/// backquotes, so that no code block can open; cut to ProgramLimits::request_bytes.
+std::string quoted_words(std::string_view words);
 
 /// {"task", "relation": id or null, "text", "hash", "version"}
 nlohmann::json to_json(const Shape& shape, const Prompt& prompt);
 
 /// The JSON schema of the block that ends a reply.
 nlohmann::json reply_schema(const Task& task);
+nlohmann::json reply_schema(std::string_view task);
 
 }  // namespace parsel

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/infer/part_names.h"
 #include "core/infer/proposals.h"
 #include "core/infer/relation_validity.h"
 #include "core/infer/seed_edit.h"
@@ -16,7 +17,8 @@ std::span<const Task* const> all_tasks() {
                                      &relation_validity_reflection_task,
                                      &relation_validity_group_task,
                                      &procedural_requests_task,
-                                     &request_variations_task};
+                                     &request_variations_task,
+                                     &part_names_task};
   return all;
 }
 

@@ -41,6 +41,11 @@ struct Task {
   /// proposes is asked on its own.
   int proposals = 0;
   bool about_request = true;  ///< false: about the model alone, without a request
+  /// What the prompt lists under part_1, part_2, … instead of by ids, so that names say nothing; null for ids.
+  std::vector<PartIndex> (*numbered)(const Shape& shape) = nullptr;
+
+  /// Whether it is asked on its own, no request being read by it.
+  bool is_alone() const { return proposals > 0 || !about_request; }
 };
 
 /// Every task, in the order in which they are asked.

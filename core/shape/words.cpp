@@ -24,23 +24,6 @@ Vec3 centre(const Part& part) {
   return part.hexahedron.point(Vec3::Zero());
 }
 
-/// Whether an id's words are those of the name, in any order and case: then the name adds nothing.
-bool says_the_same(const std::string& id, const std::string& name) {
-  const auto words = [](const std::string& text) {
-    std::vector<std::string> out(1);
-    for (const char c : text) {
-      if (c == '_' || c == ' ' || c == '-') {
-        out.emplace_back();
-      } else {
-        out.back() += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-      }
-    }
-    std::sort(out.begin(), out.end());
-    return out;
-  };
-  return words(id) == words(name);
-}
-
 struct Whole {
   explicit Whole(const Shape& shape) {
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();
@@ -113,6 +96,22 @@ const char* joint_words(RelationKind kind) {
 
 }  // namespace
 
+bool says_the_same(const std::string& id, const std::string& name) {
+  const auto words = [](const std::string& text) {
+    std::vector<std::string> out(1);
+    for (const char c : text) {
+      if (c == '_' || c == ' ' || c == '-') {
+        out.emplace_back();
+      } else {
+        out.back() += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      }
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+  };
+  return words(id) == words(name);
+}
+
 std::string quoted_name(std::string_view name) {
   std::string text = "\"";
   for (const char c : printable(name, 40)) text += c == '"' || c == '\\' || c == '`' ? '\'' : c;
@@ -130,9 +129,9 @@ std::string describe(const Shape& shape, RelationIndex index) {
   return pair + " are joined " + joint_words(relation.kind);
 }
 
-std::string describe_ground(const Shape& shape) {
+std::string describe_ground(const Shape& shape, const std::vector<RelationIndex>& dissolved) {
   std::string text;
-  for (const RelationIndex r : active_relations(shape)) {
+  for (const RelationIndex r : active_relations(shape, dissolved)) {
     if (shape.relations[r].kind != RelationKind::ground) continue;
     text +=
         (text.empty() ? "" : ", ") + shape.parts[shape.relations[r].parts[0]].id + " (" + shape.relations[r].id + ")";
@@ -140,10 +139,10 @@ std::string describe_ground(const Shape& shape) {
   return text.empty() ? text : "On the floor stand (relation): " + text + ".\n";
 }
 
-std::string describe(const Shape& shape) {
+std::string describe(const Shape& shape, const std::vector<RelationIndex>& dissolved) {
   const Whole whole(shape);
-  const std::vector<PartIndex> parts = active_parts(shape);
-  const std::vector<RelationIndex> relations = active_relations(shape);
+  const std::vector<PartIndex> parts = active_parts(shape, dissolved);
+  const std::vector<RelationIndex> relations = active_relations(shape, dissolved);
   const double longest = whole.size.maxCoeff();
   std::string text = "The shape " + quoted_name(shape.name) + " has " + std::to_string(parts.size()) +
                      " parts. Its width : height : depth are as " + percent(whole.size[0] / longest) + " : " +

@@ -10,6 +10,7 @@
 #include "core/base/sha256.h"
 #include "core/edit/operators.h"
 #include "core/gallery/gallery.h"
+#include "core/infer/cad_task.h"
 #include "core/infer/prompt_texts.h"
 #include "core/infer/relation_validity.h"
 #include "core/infer/seed_edit.h"
@@ -124,6 +125,14 @@ TEST_CASE("every file of prompts/ belongs to a task, and every task is whole") {
     CHECK((task->read != nullptr && task->vote != nullptr && task->write != nullptr));
     CHECK(reply_schema(*task)["type"] == "object");
   }
+  for (const CadTask* task : all_cad_tasks()) {
+    CAPTURE(task->name);
+    CHECK(names.insert(std::string(task->name)).second);
+    CHECK(find_cad_task(task->name) == task);
+    CHECK(find_task(task->name) == nullptr);
+    CHECK(reply_schema(task->name)["type"] == "object");
+  }
+  CHECK(find_cad_task("seed_edit") == nullptr);
   for (const PromptText& text : prompt_texts()) CHECK_MESSAGE(names.erase(std::string(text.task)) == 1, text.task);
   CHECK(names.empty());
   CHECK(find_task("paint") == nullptr);

@@ -132,7 +132,7 @@ TEST_CASE("prompts for proposals say how many, and what the numbers in the pictu
   CHECK(has(four, "pointed at: seat\n"));
   const std::string seen = text(procedural_requests_task, {"", {}, 12, true});
   CHECK(has(seen, "to propose: 12\n"));
-  const std::vector<PartIndex> numbered = numbered_parts(chair());
+  const std::vector<PartIndex> numbered = numbered_parts(chair(), procedural_requests_task);
   for (std::size_t i = 0; i < numbered.size(); ++i) {
     CHECK(has(seen, " " + std::to_string(i + 1) + " " + chair().parts[numbered[i]].id +
                         (i + 1 < numbered.size() ? "," : ".")));

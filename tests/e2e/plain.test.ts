@@ -91,6 +91,54 @@ describe('a model of one’s own, without a key', () => {
     await page.context().close();
   });
 
+  it('means its own sides, or those of whoever looks; says which, and reads the other with a click', async () => {
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
+    const moved = () =>
+      page.evaluate(() =>
+        parsel
+          .document()
+          .layers.map(({ layer, seen }) => [
+            (layer.statements.find(({ why }) => why?.kind === 'seed') as { part: string }).part,
+            seen,
+          ]),
+      );
+    await field(page).fill('make the front left leg thicker');
+    await composer(page).getByText('Left, right, front and back are the object’s own').waitFor();
+    await field(page).press('Enter');
+    await composer(page).getByText('Sides: the object’s own').waitFor();
+    await expect.poll(moved).toEqual([['leg_front_left', undefined]]);
+
+    await composer(page).getByRole('button', { name: 'Read it from where I look' }).click();
+    await composer(page).getByText('as you look at its front; read as “make the front right leg thicker”').waitFor();
+    await expect.poll(moved).toEqual([['leg_front_right', 'front']]);
+    await composer(page).getByRole('button', { name: 'Read it with its own sides' }).click();
+    await expect.poll(moved).toEqual([['leg_front_left', undefined]]);
+    await page.getByRole('button', { name: 'Undo: make the front left leg thicker' }).click();
+    expect(await moved()).toEqual([]);
+
+    // The switch beside the compass counts for what is sent from then on, and is part of the work.
+    const own = page.getByLabel('Sides of the model').getByRole('button', { name: 'From where I look' });
+    await own.click();
+    expect(await own.getAttribute('aria-pressed')).toBe('true');
+    await page.getByRole('button', { name: 'Look from its left' }).click();
+    await field(page).fill('make the front left leg thicker');
+    await composer(page).getByText('Sides are yours, as you look at its left').waitFor();
+    await page.screenshot({ path: `${outputFolder}/plain-sides.png` });
+    expect(await serious(page)).toEqual([]);
+    await field(page).press('Enter');
+    // What is in front of me is its left, what is on my left its front.
+    await expect.poll(moved).toEqual([['leg_front_left', 'left']]);
+    await page.getByText('Its sides were said looking at its left').waitFor();
+    await page.screenshot({ path: `${outputFolder}/plain-sides-read.png` });
+    await page.waitForTimeout(600); // it is written
+    await page.reload();
+    await page.waitForFunction(() => parsel.stage()?.isShown());
+    expect(await moved()).toEqual([['leg_front_left', 'left']]);
+    expect(await own.getAttribute('aria-pressed')).toBe('true');
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+
   it('can be corrected like any other reading', async () => {
     const { page, complaints } = await openModel(site.browser, site.url, stool);
     await say(page, 'make the seat wider');

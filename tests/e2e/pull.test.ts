@@ -130,3 +130,58 @@ describe('moving a part', () => {
     expect(await layers()).toEqual([]);
   });
 });
+
+describe('whole centimetres', () => {
+  it('are what a pull and a slider stop at while they are on, by keyboard as well', async () => {
+    await page.getByRole('button', { name: 'Snap to 1 cm' }).click();
+    await drag('Pull left of seat', [37, 9]);
+    await page.mouse.up();
+    const typed = page.locator('.card .typed');
+    await typed.waitFor();
+    const width = async () => Number.parseFloat(await typed.inputValue());
+    const whole = await width();
+    expect(await typed.inputValue()).toMatch(/^\d+ cm$/);
+    expect(whole).not.toBe(50);
+    const slider = page.locator('.card').getByRole('slider');
+    await slider.press('ArrowRight');
+    expect(await width()).toBe(whole + 1);
+    await slider.press('ArrowLeft');
+    await slider.press('ArrowLeft');
+    expect(await width()).toBe(whole - 1);
+    await page.keyboard.press('s');
+    expect(await page.getByRole('button', { name: 'Snap to 1 cm' }).getAttribute('aria-pressed')).toBe('false');
+    expect(complaints).toEqual([]);
+  });
+});
+
+describe('the ruler', () => {
+  it('measures between two clicks, goes along with the parts, and between parts of the list', async () => {
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('r');
+    const card = page.getByRole('region', { name: 'Ruler' });
+    await card.getByText('Click two points').waitFor();
+    const seats = await page.evaluate(() => {
+      const shape = parsel.document().model?.shape;
+      const index = shape?.parts.findIndex(({ name }) => name === 'seat') ?? -1;
+      const at = parsel.corners().slice(24 * index, 24 * index + 24);
+      const top = [2, 3, 6, 7].map((k) => at.slice(3 * k, 3 * k + 3));
+      const mid = (a: readonly number[] = [], b: readonly number[] = []) => a.map((x, i) => (9 * x + (b[i] ?? 0)) / 10);
+      return [mid(top[2], top[1]), mid(top[3], top[0])].map((point) => parsel.stage()?.projectMean(point));
+    });
+    for (const place of seats) await page.mouse.click(place?.x ?? 0, place?.y ?? 0);
+    const reading = async () => (await card.getByRole('status').textContent()) ?? '';
+    await expect.poll(reading).toMatch(/^\d+(\.\d)? cm on seat · /);
+    await page.screenshot({ path: `${outputFolder}/ruler.png` });
+    const before = Number.parseFloat(await reading());
+    expect(before).toBeGreaterThan(30);
+    expect(before).toBeLessThan(50.5);
+    // By keyboard: the parts of the list, from middle to middle.
+    const row = (name: string) => page.locator('.part').filter({ hasText: name }).first().locator('.name');
+    await row('seat').click();
+    await row('leg').click();
+    await expect.poll(reading).toMatch(/cm from seat to .*leg/);
+    await card.getByRole('button', { name: 'Put the ruler away' }).click();
+    expect(await card.count()).toBe(0);
+    expect(complaints).toEqual([]);
+  });
+});

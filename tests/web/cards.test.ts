@@ -107,7 +107,7 @@ describe('cards', () => {
     expect(read.saved.groups).toEqual([[0, 'sizes']]);
     expect(read.saved.presets).toEqual([{ name: 'wide', values: [[0, 0.2]] }]);
     const other = readSaved({ ...text, presets: 'none' });
-    expect(other.ok && other.lost).toEqual(['edit 1', 'presets, groups and the unit']);
+    expect(other.ok && other.lost).toEqual(['edit 1', 'presets, groups, the unit and whose sides are meant']);
   });
 });
 

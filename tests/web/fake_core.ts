@@ -104,6 +104,12 @@ export function fakeCore(): FakeCore {
       prompts: [{ task: 'seed_edit', relation: null, text: 'p', hash: 'h', version: '1' }],
       tasks: { seed_edit: { words: 'the edit', schema: {} } },
     }),
+    cadPrompt: async ({ task, kind }) => ({
+      prompt: { task, text: 'ask', hash: `${task} ${kind}`, version: '1' },
+      words: 'kinds',
+      schema: {},
+    }),
+    readCadReplies: async () => ({ refused: [] }),
     proposalPrompt: async (_, { task }) => ({
       prompt: { task, relation: null, text: 'propose', hash: task, version: '1' },
       words: 'sliders',

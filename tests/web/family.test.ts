@@ -1,12 +1,7 @@
 // Families of the gallery's CAD programs, from the core through the session: sliders, stops, mixtures, what is shared, and
 // work that is saved and opened again.
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
-import * as v from 'valibot';
 import { beforeAll, describe, expect, it } from 'vitest';
-import type { Shape } from '../../web/src/program/types';
-import type { CadSource, ModelFiles } from '../../web/src/scene/load';
-import { emptyDocument, noLabels } from '../../web/src/session/document';
+import { emptyDocument } from '../../web/src/session/document';
 import { familyOf, withProgramRead } from '../../web/src/session/family';
 import { choicesFor, sharedClasses } from '../../web/src/session/family_shared';
 import {
@@ -22,52 +17,20 @@ import {
 import type { ModelCore } from '../../web/src/session/model_core';
 import { createSession } from '../../web/src/session/session';
 import { readSaved, save } from '../../web/src/share/saved';
-import { methodSchemas } from '../../web/src/worker/protocol';
-import { fakeCore, moving } from './fake_core';
+import { cadCore, openProgram, options, programText } from './cad_fixture';
+import { moving } from './fake_core';
 import { type LoadedModule, loadModule } from './module';
 
 const programs = ['bottle', 'camera', 'car', 'chair', 'table'] as const;
-const text = (name: string) =>
-  new Uint8Array(readFileSync(fileURLToPath(new URL(`../../core/gallery/programs/${name}`, import.meta.url))));
-const options = { signal: new AbortController().signal, onProgress: () => {} };
 
 let module: LoadedModule;
 let core: ModelCore;
 beforeAll(async () => {
   module = await loadModule();
-  const call = (method: 'open_cad' | 'find_family' | 'family_text', parameters: unknown, given: Uint8Array[] = []) => {
-    const reply = module.invoke(method, JSON.stringify(parameters), given, null);
-    const message = JSON.parse(reply.json) as { result?: unknown; error?: { place: string; cause: string } };
-    if (message.error) throw new Error(`${message.error.place}: ${message.error.cause}`);
-    return { result: v.parse(methodSchemas[method].result, message.result) as never, buffers: reply.buffers };
-  };
-  core = {
-    ...fakeCore(),
-    async readCad(name, program) {
-      const { result, buffers } = call('open_cad', { name }, [program]);
-      return { read: result, glb: buffers[0] as Uint8Array };
-    },
-    async findFamily(about) {
-      const { result, buffers } = call('find_family', about);
-      return { found: result, pictures: buffers };
-    },
-    familyText: async (about) => call('family_text', about).result,
-  };
+  core = cadCore(module);
 });
 
-async function opened(name: string) {
-  const beside = { name, main: text(`${name}.scad`), external: new Map() };
-  const program = { variations: text(`${name}.variations.json`) };
-  const files = (await withProgramRead(core, { ...beside, program }, options)) as ModelFiles & { cad: CadSource };
-  const reply = module.invoke('open', JSON.stringify({ name, external: [] }), [files.main], null);
-  const { shape } = (JSON.parse(reply.json) as { result: { shape: Shape } }).result;
-  const model = { files, shape, source: { kind: 'file' as const }, labels: noLabels };
-  const session = createSession();
-  const source = await familyOf(core, files, undefined, options);
-  session.replaceDocument(withFamily({ ...emptyDocument, model }, source, 0, session.newEntry), `open ${name}`);
-  const family = () => session.document.value.family as FamilyState;
-  return { session, family, model, cad: files.cad };
-}
+const opened = (name: string) => openProgram(core, module, name);
 
 const close = (a: readonly number[], b: readonly number[]) => {
   expect(a.length).toBe(b.length);
@@ -104,7 +67,7 @@ describe('the family of a program', () => {
 
   it('what the page draws at a variation is what the program makes there', async () => {
     const { session, family, model } = await opened('chair');
-    const bounds = JSON.parse(new TextDecoder().decode(text('chair.variations.json'))).variations[3];
+    const bounds = JSON.parse(new TextDecoder().decode(programText('chair.variations.json'))).variations[3];
     expect(bounds.name).toBe('bar stool');
     session.family.showVariation(3);
     const state = session.compiled.value;

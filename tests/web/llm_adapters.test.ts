@@ -5,6 +5,7 @@ import { outputBudget } from '../../web/src/llm/adapter';
 import { AskError, type AskFailure } from '../../web/src/llm/ask_error';
 import { complete, listModels, type SendOptions } from '../../web/src/llm/http';
 import { type Protocol, providerOf } from '../../web/src/llm/providers';
+import { spent } from '../../web/src/llm/spent';
 import { type Behaviour, type ProviderServer, startProviders } from './provider_server';
 
 let providers: ProviderServer;
@@ -45,6 +46,25 @@ async function failure(
 }
 
 describe.each(protocols)('%s', (protocol) => {
+  it('counts what it spends, of an answer that is cut off as well', async () => {
+    const to = target(protocol);
+    const own = () => spent.value.find(({ model }) => model === to.model);
+    providers.behave(() => ({ kind: 'reply', text }));
+    await send(to);
+    providers.behave(() => ({ kind: 'cut_off' }));
+    await expect(send(to)).rejects.toThrow('cut the reply off');
+    providers.behave(() => ({ kind: 'status', status: 401, body: {} }));
+    await expect(send(to)).rejects.toThrow('does not accept the key');
+    expect(own()).toEqual({
+      provider: protocol,
+      model: to.model,
+      answers: 2,
+      uncounted: 0,
+      input: 2000,
+      output: 400,
+    });
+  });
+
   it('sends the prompt with the key and reads the reply and its tokens', async () => {
     providers.behave(() => ({ kind: 'reply', text }));
     const to = target(protocol);

@@ -4,9 +4,11 @@ import { describe, expect, it, vi } from 'vitest';
 import type { Reply, Target } from '../../web/src/llm/adapter';
 import { AskError } from '../../web/src/llm/ask_error';
 import type { ReplyCache } from '../../web/src/llm/cache';
+import { defaultModel, lookedUp } from '../../web/src/llm/default_models';
 import { isAllowed, providerOf, providers } from '../../web/src/llm/providers';
 import { findRecorded } from '../../web/src/llm/recordings';
 import { ask, estimate, type PromptSet, type TaskProgress } from '../../web/src/llm/session';
+import { choiceOf, choose, settings } from '../../web/src/llm/settings';
 import { liveSource, recordedSource, type Source } from '../../web/src/llm/source';
 import type { Inference, Prompt, Replies } from '../../web/src/worker/protocol';
 
@@ -177,6 +179,61 @@ describe('asking', () => {
     expect(discarded).toEqual(['seed_edit 2']);
   });
 
+  describe('somebody who was never asked', () => {
+    function unproven(react: (task: string, vote: number) => Reaction | undefined) {
+      const fake = fakeSource(3, react);
+      const reply = vi.spyOn(fake.source, 'reply');
+      const known = { isProven: false };
+      fake.source.isProven = () => known.isProven;
+      return { ...fake, reply, known };
+    }
+
+    it('is asked one question, and all others once that is answered', async () => {
+      const { source, reply } = unproven(() => undefined);
+      const answer: ((reply: Reply) => void)[] = [];
+      reply.mockReturnValueOnce(new Promise((resolve) => answer.push(resolve)));
+      const running = run(source);
+      await new Promise((resolve) => setTimeout(resolve, 30));
+      expect(reply).toHaveBeenCalledTimes(1);
+      answer[0]?.({ text: 'seed_edit', tokens: null });
+      expect((await running).calls).toBe(9);
+    });
+
+    it.each([wrongKey, passing, new AskError('timeout', 'host', 'gave no answer', 'Try again')])(
+      'costs one call when it fails: $kind',
+      async (error) => {
+        const { source, reply } = unproven(() => error);
+        await expect(run(source)).rejects.toBe(error);
+        expect(reply).toHaveBeenCalledTimes(1);
+      },
+    );
+
+    it('is there when its first answer cannot be used', async () => {
+      const cut = new AskError('cut_off', 'host', 'cut the reply off', 'Try again');
+      const { source } = unproven((task, vote) => (task === 'seed_edit' && vote === 0 ? cut : undefined));
+      const answer = await run(source);
+      expect(answer).toMatchObject({ calls: 8, failures: [cut] });
+    });
+
+    it('is asked for everything at once when it has answered before', async () => {
+      const { source, reply, known } = unproven(() => 'never');
+      known.isProven = true;
+      const controller = new AbortController();
+      const running = run(source, { signal: controller.signal });
+      await new Promise((resolve) => setTimeout(resolve, 10));
+      expect(reply).toHaveBeenCalledTimes(9);
+      controller.abort();
+      await expect(running).rejects.toThrow('aborted');
+    });
+
+    it('answers first for what kept replies leave open', async () => {
+      const { source, reply } = unproven(() => undefined);
+      source.kept = async ({ task }) => (task === 'seed_edit' ? 'wider' : undefined);
+      await run(source);
+      expect(reply.mock.calls[0]?.[0].task).toBe('type_hints');
+    });
+  });
+
   it('estimates calls and tokens before', () => {
     const text = 'x'.repeat(4000);
     expect(estimate([{ ...prompt('seed_edit'), text }], 5)).toEqual({ calls: 5, inputTokens: 5000 });
@@ -218,6 +275,18 @@ describe('replies that were paid for', () => {
     expect(JSON.stringify([...cache.map])).not.toContain('"k"');
   });
 
+  it('prove whom they came from, by address, model and key', async () => {
+    const fetch = vi.fn(async () => Response.json(body));
+    const options = { votes: 1, cache: memoryCache(), fetch };
+    const isProven = (change: Partial<Target> = {}) => liveSource({ ...target, ...change }, options).isProven?.();
+    const own = { model: 'never asked before' };
+    expect(isProven(own)).toBe(false);
+    await liveSource({ ...target, ...own }, options).reply(prompt('seed_edit'), 0, null, new AbortController().signal);
+    expect(isProven(own)).toBe(true);
+    expect(isProven({ ...own, key: 'another' })).toBe(false);
+    expect(isProven({ ...own, base: 'http://localhost:1' })).toBe(false);
+  });
+
   it('are kept when another call of the request fails', async () => {
     const cache = memoryCache();
     let fails = true;
@@ -257,6 +326,23 @@ describe('recordings', () => {
     await expect(source.reply(prompt('type_hints'), 0, null, signal)).rejects.toThrow(
       /no recorded answer.*enter a key/,
     );
+  });
+});
+
+describe('default models', () => {
+  it('are there for every provider, and for none besides', () => {
+    for (const { id } of providers) expect(defaultModel(id), id).not.toBe('');
+    expect(defaultModel('recorded')).toBe('');
+    expect(Date.parse(lookedUp)).toBeLessThan(Date.now());
+  });
+  it('are asked until another is named, and follow the table as long as none is', () => {
+    choose('openai', {});
+    expect(choiceOf('openai').model).toBe(defaultModel('openai'));
+    expect(settings.value.choices.openai?.model).toBe('');
+    choose('openai', { model: 'my-own' });
+    expect(choiceOf('openai').model).toBe('my-own');
+    choose('openai', { model: ' ' });
+    expect(choiceOf('openai').model).toBe(defaultModel('openai'));
   });
 });
 

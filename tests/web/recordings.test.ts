@@ -6,10 +6,9 @@ import {
   compare,
   type Recording,
   type RenderedRequest,
-  readProposals,
   readRecordings,
   readRequests,
-  renderProposals,
+  renderAll,
   renderRequests,
 } from '../../web/tools/prompts.mjs';
 import { readReplies, variantPrompts, variants } from '../eval/variants.mjs';
@@ -30,10 +29,7 @@ beforeAll(async () => {
 describe('the recorded requests', () => {
   it('are whole and of today', () => {
     const recordings = readRecordings();
-    const { missing, stale } = compare(
-      [...renderRequests(core, readRequests()), ...renderProposals(core, readProposals(), recordings)],
-      recordings,
-    );
+    const { missing, stale } = compare(renderAll(core, recordings), recordings);
     expect(
       missing.map(({ model, request, prompt }) => `${model}: ${request}: ${prompt.task} ${prompt.relation}`),
     ).toEqual([]);

@@ -25,7 +25,8 @@ function ready(change: Partial<RequestParts> = {}) {
   const requests = createRequests({
     session,
     models: signal<ModelCore | null>(core),
-    questionOf: async (_, request, mentioned) => ({ request, mentioned, source }),
+    questionOf: async (_, said, mentioned) => ({ request: said.told, title: said.typed, mentioned, source }),
+    seen: () => null,
     votes: () => 3,
     play,
     aim,
@@ -82,8 +83,9 @@ describe('a request', () => {
 
   it('can be cancelled, and keeps what was typed', async () => {
     const { requests } = ready({
-      questionOf: async (_, request, mentioned) => ({
-        request,
+      questionOf: async (_, said, mentioned) => ({
+        request: said.told,
+        title: said.typed,
         mentioned,
         source: {
           ...source,
@@ -110,6 +112,47 @@ describe('a request', () => {
     expect(requests.request.value).toEqual({ kind: 'idle' });
     expect(requests.mentioned.value).toEqual(['left']);
     stop();
+  });
+});
+
+describe('sides', () => {
+  it('are told from where they are said, kept with the layer, and read with the others in its place', async () => {
+    const made = ready({ seen: () => 'left', votes: () => null });
+    const { session, core, requests } = made;
+    const prompts = vi.spyOn(core, 'prompts');
+    requests.requestText.value = 'lift the right one';
+    await requests.sendRequest();
+    const seen = () => session.document.value.layers.map((entry) => entry.seen);
+    expect(prompts.mock.calls[0]?.[1]).toMatch(/^lift the right one\n\(I say sides as I see them, looking at its left/);
+    expect(session.document.value.layers.map(({ layer }) => layer.request)).toEqual(['lift the right one']);
+    expect(seen()).toEqual(['left']);
+
+    const state = requests.request.value;
+    if (state.kind !== 'understood') throw new Error('it is not understood');
+    await requests.readFrom(state, null);
+    expect(prompts.mock.calls[1]?.[1]).toBe('lift the right one');
+    expect(seen()).toEqual([undefined]);
+    session.undo();
+    expect(seen()).toEqual([]);
+  });
+
+  it('are put into the object’s own where no language model is asked', async () => {
+    const { core, requests } = ready({ seen: () => 'front' });
+    core.plain = readPlainly(['left'], true);
+    const read = vi.spyOn(core, 'readPlainly');
+    requests.requestText.value = 'lift the right one';
+    await requests.sendRequest();
+    expect(read.mock.calls[0]?.[1]).toBe('lift the left one');
+    expect(requests.request.value).toMatchObject({ said: { own: 'lift the left one', seen: 'front' } });
+  });
+
+  it('are the object’s own by default: nothing is added', async () => {
+    const { core, requests, session } = ready({ votes: () => null });
+    const prompts = vi.spyOn(core, 'prompts');
+    requests.requestText.value = 'lift the right one';
+    await requests.sendRequest();
+    expect(prompts.mock.calls[0]?.[1]).toBe('lift the right one');
+    expect(session.document.value.layers[0]).not.toHaveProperty('seen');
   });
 });
 

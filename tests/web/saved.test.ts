@@ -65,6 +65,17 @@ describe('a saved session', () => {
     expect(found).toMatchObject({ ok: true, saved: { model: whole.model, ...kept }, lost: [said] });
   });
 
+  it('keeps whose sides were meant, of the work and of each edit', () => {
+    const sided = { ...whole, sides: 'seen', seen: [[1, 'left']] };
+    expect(readSaved(sided)).toMatchObject({ ok: true, saved: { sides: 'seen', seen: [[1, 'left']] }, lost: [] });
+    expect(readSaved({ ...whole, seen: [[1, 'below']] })).toMatchObject({
+      ok: true,
+      lost: [expect.stringMatching(/whose sides/)],
+    });
+    const first = { ...sided, program: { ...whole.program, layers: [{}, ...whole.program.layers.slice(1)] } };
+    expect(readSaved(first)).toMatchObject({ ok: true, saved: { seen: [[0, 'left']] } });
+  });
+
   it('with a damaged view is seen from where the page looks', () => {
     const { saved, lost } = read((session: { view: unknown }) => {
       session.view = [0, 1, 'far'];

@@ -32,6 +32,9 @@ export function renderProposals(
   proposals: readonly OfferedProposals[],
   recordings: ReadonlyMap<string, Recording>,
 ): RenderedRequest[];
+export function renderKinds(core: Core, recordings: ReadonlyMap<string, Recording>): RenderedRequest[];
+export function renderNames(core: Core): RenderedRequest[];
+export function renderAll(core: Core, recordings?: ReadonlyMap<string, Recording>): RenderedRequest[];
 export function compare(
   rendered: readonly RenderedRequest[],
   recordings: ReadonlyMap<string, Recording>,

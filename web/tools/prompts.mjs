@@ -3,6 +3,7 @@
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from './core.mjs';
+import { namelessIds, withoutNames } from './nameless.mjs';
 
 const requestsFile = join(root, 'prompts', 'requests.json');
 const proposalsFile = join(root, 'prompts', 'proposals.json');
@@ -104,6 +105,64 @@ export function renderProposals(core, proposals, recordings) {
     });
     return [own, ...proposed];
   });
+}
+
+/** As many kinds of a program are drawn without being asked for: drawnAtOnce in web/src/session/kinds.ts. */
+const drawnKinds = 6;
+
+/**
+ * Renders what is asked about the gallery's CAD programs: which kinds there are, and the numbers of those that most of the
+ * recorded replies name.
+ * @returns as renderRequests(), the model being the program's id in the gallery, each with the task that it is of
+ */
+export function renderKinds(core, recordings) {
+  const { result, buffers } = core('cad_gallery', {});
+  return result.programs.flatMap(({ id }, index) => {
+    const { cad } = core('open_cad', { name: id }, [buffers[2 * index]]).result;
+    const one = (task, kind) => {
+      const { prompt, words, schema } = core('cad_prompt', { cad, task, kind, count: 0 }).result;
+      const prompts = [{ ...prompt, relation: null }];
+      return {
+        model: `${id}_program`,
+        task,
+        request: kind,
+        mentioned: [],
+        suggest: false,
+        prompts,
+        tasks: { [task]: { words, schema } },
+      };
+    };
+    const own = one('kinds', '');
+    const texts = (recordings.get(own.prompts[0].hash)?.replies ?? []).map(({ text }) => text);
+    if (texts.length === 0) return [own];
+    const { kinds } = core('read_cad_replies', { cad, task: 'kinds', kind: '', texts }).result;
+    return [own, ...kinds.slice(0, drawnKinds).map(({ name }) => one('variation', name))];
+  });
+}
+
+/** Renders what is asked about the gallery's models without names: what their parts are called. */
+export function renderNames(core) {
+  const { result, buffers } = core('gallery', {});
+  return namelessIds.map((id) => {
+    const model = `${id}_nameless`;
+    const index = result.models.findIndex((one) => one.id === id);
+    core('open', { name: model, external: [] }, [withoutNames(buffers[index])]);
+    const task = 'part_names';
+    const asked = { task, request: '', mentioned: [], count: 0, picture: false };
+    const { prompt, words, schema } = core('proposal_prompt', asked).result;
+    const tasks = { [task]: { words, schema } };
+    return { model, task, request: '', mentioned: [], suggest: false, prompts: [prompt], tasks };
+  });
+}
+
+/** Everything that may be recorded. */
+export function renderAll(core, recordings = readRecordings()) {
+  return [
+    ...renderRequests(core, readRequests()),
+    ...renderProposals(core, readProposals(), recordings),
+    ...renderKinds(core, recordings),
+    ...renderNames(core),
+  ];
 }
 
 /**

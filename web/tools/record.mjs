@@ -1,5 +1,5 @@
-// Keeps prompts/recordings: which prompts of prompts/requests.json and prompts/proposals.json, and of what is proposed,
-// have no recorded reply, and recording them. One that goes along with a picture is not asked here.
+// Keeps prompts/recordings: which prompts of prompts/requests.json and prompts/proposals.json, of what is proposed, and about
+// the gallery's CAD programs and its models without names have no recorded reply, and recording them. One that goes along with a picture is not asked here.
 //
 //   node web/tools/record.mjs                             lists what is recorded, missing and stale
 //   node web/tools/record.mjs --write DIR [--votes 5]     writes what is missing as DIR/<hash>.<vote>.prompt.md
@@ -13,15 +13,7 @@ import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { runnerImport } from 'vite';
 import { loadCore, root } from './core.mjs';
-import {
-  compare,
-  readProposals,
-  readRecordings,
-  readRequests,
-  renderProposals,
-  renderRequests,
-  writeReplies,
-} from './prompts.mjs';
+import { compare, readRecordings, renderAll, writeReplies } from './prompts.mjs';
 
 const text = { type: 'string' };
 const { values } = parseArgs({
@@ -47,7 +39,7 @@ if ((values.read || values.provider) && !values.model) die('--model NAME says wh
 
 const core = await loadCore();
 const recordings = readRecordings();
-const all = [...renderRequests(core, readRequests()), ...renderProposals(core, readProposals(), recordings)];
+const all = renderAll(core, recordings);
 const { offered, open, missing, stale } = compare(all, recordings);
 const wanted = all.filter(({ model }) => values.only === undefined || model === values.only);
 

@@ -2,22 +2,25 @@
 import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { loadCore, root } from './core.mjs';
-import { compare, readProposals, readRecordings, readRequests, renderProposals, renderRequests } from './prompts.mjs';
+import { namelessIds } from './nameless.mjs';
+import { compare, readRecordings, renderAll } from './prompts.mjs';
 
 const folder = join(root, 'web', 'public', 'recordings');
 const core = await loadCore();
 const recordings = readRecordings();
-const { offered, missing } = compare(
-  [...renderRequests(core, readRequests()), ...renderProposals(core, readProposals(), recordings)],
-  recordings,
-);
+const { offered, missing } = compare(renderAll(core, recordings), recordings);
 if (missing.length > 0)
   process.stderr.write(`${missing.length} prompts have no recording: node web/tools/record.mjs lists them.\n`);
 
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 // Every model has a file, an empty one too: the page asks for it, and a missing file is an error in the console.
-for (const { id } of core('gallery', {}).result.models) {
+const ids = [
+  ...core('gallery', {}).result.models.map(({ id }) => id),
+  ...core('cad_gallery', {}).result.programs.map(({ id }) => `${id}_program`),
+  ...namelessIds.map((id) => `${id}_nameless`),
+];
+for (const id of ids) {
   const own = offered.filter(({ model }) => model === id);
   const used = own.flatMap(({ prompts }) => prompts.map(({ hash }) => recordings.get(hash)));
   writeFileSync(

@@ -36,8 +36,10 @@ export interface Reply {
 /** A protocol: how a call is put and how its answer is read. */
 export interface Adapter {
   request(target: Target, call: Call): { url: string; headers: Record<string, string>; body: object };
-  /** @throws AskError when the answer is cut off, refused or of another form */
-  read(json: unknown, host: string): Reply;
+  /** The text of the answer. @throws AskError when it is cut off, refused or of another form */
+  read(json: unknown, host: string): string;
+  /** As counted by the provider, of an answer that is cut off as well; null when it does not say. */
+  tokens(json: unknown): Tokens | null;
   /** Where the provider lists its models. */
   models(target: Target): { url: string; headers: Record<string, string> };
 }

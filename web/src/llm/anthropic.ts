@@ -8,8 +8,8 @@ const count = v.fallback(v.number(), 0);
 const replySchema = v.object({
   stop_reason: v.nullish(v.string()),
   content: v.array(v.looseObject({ type: v.string(), text: v.optional(v.string()) })),
-  usage: v.nullish(v.object({ input_tokens: count, output_tokens: count })),
 });
+const usageSchema = v.object({ usage: v.object({ input_tokens: count, output_tokens: count }) });
 
 const headersOf = (key: string): Record<string, string> => ({
   'x-api-key': key,
@@ -41,15 +41,16 @@ export const anthropic: Adapter = {
   read(json, host) {
     const read = v.safeParse(replySchema, json);
     if (!read.success) throw unreadable(host);
-    const { stop_reason, content, usage } = read.output;
+    const { stop_reason, content } = read.output;
     if (stop_reason === 'max_tokens' || stop_reason === 'model_context_window_exceeded') throw cutOff(host);
     if (stop_reason === 'refusal') throw new AskError('unreadable', host, 'refuses to answer', 'Say it in other words');
     const text = content.map((block) => (block.type === 'text' ? (block.text ?? '') : '')).join('');
     if (text === '') throw unreadable(host);
-    return {
-      text: plainReply(text),
-      tokens: usage ? { input: usage.input_tokens, output: usage.output_tokens } : null,
-    };
+    return plainReply(text);
+  },
+  tokens(json) {
+    const { success, output } = v.safeParse(usageSchema, json);
+    return success ? { input: output.usage.input_tokens, output: output.usage.output_tokens } : null;
   },
   models: ({ base, key }) => ({ url: `${base}/models?limit=1000`, headers: headersOf(key) }),
 };

@@ -51,6 +51,10 @@ export class AskError extends Error {
   get isHopeless(): boolean {
     return hopeless.includes(this.kind);
   }
+  /** Somebody answered, but not with what can be used. */
+  get isAnswer(): boolean {
+    return this.kind === 'cut_off' || this.kind === 'unreadable';
+  }
 }
 
 const maxQuoted = 200;

@@ -21,9 +21,9 @@ const replySchema = v.object({
     ),
   ),
   promptFeedback: v.optional(v.object({ blockReason: v.optional(v.string()) })),
-  usageMetadata: v.optional(
-    v.object({ promptTokenCount: count, candidatesTokenCount: count, thoughtsTokenCount: count }),
-  ),
+});
+const usageSchema = v.object({
+  usageMetadata: v.object({ promptTokenCount: count, candidatesTokenCount: count, thoughtsTokenCount: count }),
 });
 
 export const gemini: Adapter = {
@@ -51,7 +51,7 @@ export const gemini: Adapter = {
   read(json, host) {
     const read = v.safeParse(replySchema, json);
     if (!read.success) throw unreadable(host);
-    const { candidates, promptFeedback, usageMetadata: usage } = read.output;
+    const { candidates, promptFeedback } = read.output;
     const candidate = candidates?.[0];
     if (candidate?.finishReason === 'MAX_TOKENS') throw cutOff(host);
     const text = (candidate?.content?.parts ?? []).map((part) => (part.thought ? '' : (part.text ?? ''))).join('');
@@ -60,12 +60,13 @@ export const gemini: Adapter = {
       if (reason === undefined || reason === 'STOP') throw unreadable(host);
       throw new AskError('unreadable', host, `refuses to answer${quoted(reason)}`, 'Say it in other words');
     }
-    return {
-      text: plainReply(text),
-      tokens: usage
-        ? { input: usage.promptTokenCount, output: usage.candidatesTokenCount + usage.thoughtsTokenCount }
-        : null,
-    };
+    return plainReply(text);
+  },
+  tokens(json) {
+    const { success, output } = v.safeParse(usageSchema, json);
+    if (!success) return null;
+    const { promptTokenCount, candidatesTokenCount, thoughtsTokenCount } = output.usageMetadata;
+    return { input: promptTokenCount, output: candidatesTokenCount + thoughtsTokenCount };
   },
   models: ({ base, key }) => ({ url: `${base}/models?pageSize=1000`, headers: { 'x-goog-api-key': key } }),
 };

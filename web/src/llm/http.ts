@@ -7,6 +7,7 @@ import { gemini } from './gemini';
 import { openai } from './openai';
 import type { Protocol } from './providers';
 import { redactedJson, redactorOf } from './redact';
+import { addSpending } from './spent';
 
 const adapters: Record<Protocol, Adapter> = { openai, anthropic, gemini };
 
@@ -39,7 +40,9 @@ export async function complete(target: Target, call: Call, options: SendOptions)
     try {
       const { url, headers, body } = adapter.request(target, { ...call, schema });
       const json = await exchange(url, { method: 'POST', headers, body: JSON.stringify(body) }, target, options);
-      return adapter.read(json, new URL(url).host);
+      const tokens = adapter.tokens(json);
+      addSpending(target, tokens);
+      return { text: adapter.read(json, new URL(url).host), tokens };
     } catch (error) {
       options.signal.throwIfAborted();
       if (!(error instanceof AskError)) throw error;

@@ -15,8 +15,8 @@ const replySchema = v.object({
     ],
     v.unknown(),
   ),
-  usage: v.nullish(v.object({ prompt_tokens: count, completion_tokens: count })),
 });
+const usageSchema = v.object({ usage: v.object({ prompt_tokens: count, completion_tokens: count }) });
 
 const headersOf = (key: string): Record<string, string> => (key === '' ? {} : { Authorization: `Bearer ${key}` });
 
@@ -54,16 +54,16 @@ export const openai: Adapter = {
   read(json, host) {
     const read = v.safeParse(replySchema, json);
     if (!read.success) throw unreadable(host);
-    const { choices, usage } = read.output;
-    const [{ finish_reason, message }] = choices;
+    const [{ finish_reason, message }] = read.output.choices;
     if (finish_reason === 'length') throw cutOff(host);
     if (message.refusal)
       throw new AskError('unreadable', host, `refuses to answer${quoted(message.refusal)}`, 'Say it in other words');
     if (!message.content) throw unreadable(host);
-    return {
-      text: plainReply(message.content),
-      tokens: usage ? { input: usage.prompt_tokens, output: usage.completion_tokens } : null,
-    };
+    return plainReply(message.content);
+  },
+  tokens(json) {
+    const { success, output } = v.safeParse(usageSchema, json);
+    return success ? { input: output.usage.prompt_tokens, output: output.usage.completion_tokens } : null;
   },
   models: ({ base, key }) => ({ url: `${base}/models`, headers: headersOf(key) }),
 };

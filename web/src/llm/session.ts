@@ -1,5 +1,7 @@
 // A request is many prompts, each asked several times. Replies that were kept are counted first; then all calls go out at
-// once, and a vote that the calls still under way cannot turn any more ends them. What prompts ask and what replies mean is the core's business: here is only the asking.
+// once, and a vote that the calls still under way cannot turn any more ends them. Of somebody who was never asked before, the
+// first call goes alone, so that a wrong key or a server that is not there costs one. What prompts ask and what replies mean
+// is the core's business: here is only the asking.
 
 import type { Inference, MethodResult, Prompt, Replies, Task } from '../worker/protocol';
 import type { Tokens } from './adapter';
@@ -99,7 +101,8 @@ export async function ask(
     }
   };
 
-  const one = async (ballot: Ballot, vote: number) => {
+  /** @param isFirst nobody has answered yet: what keeps the answer away would keep away all others */
+  const one = async (ballot: Ballot, vote: number, isFirst = false) => {
     const { prompt, controller } = ballot;
     const own = AbortSignal.any([signal, all.signal, controller.signal]);
     try {
@@ -113,7 +116,7 @@ export async function ask(
       if (own.aborted) return;
       if (!(error instanceof AskError)) throw error;
       failures.push(error);
-      if (error.isHopeless) all.abort(error);
+      if (error.isHopeless || (isFirst && !error.isAnswer)) all.abort(error);
     } finally {
       ballot.pending--;
       report();
@@ -133,7 +136,11 @@ export async function ask(
   );
   report();
   if (kept > 0) await endDecided();
-  await Promise.all(votes.map(({ ballot, vote }) => (ballot.texts[vote] === undefined ? one(ballot, vote) : null)));
+  const open = votes.filter(({ ballot, vote }) => ballot.texts[vote] === undefined);
+  const first =
+    source.isProven?.() === false ? open.find(({ ballot }) => !ballot.controller.signal.aborted) : undefined;
+  if (first !== undefined) await one(first.ballot, first.vote, true);
+  await Promise.all(open.map((next) => (next === first ? null : one(next.ballot, next.vote))));
   signal.throwIfAborted();
   if (all.signal.aborted) throw all.signal.reason;
   const seed = ballots.find(({ prompt }) => prompt.task === 'seed_edit');

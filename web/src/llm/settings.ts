@@ -3,6 +3,7 @@ import { computed, effect, signal } from '@preact/signals';
 import * as v from 'valibot';
 import type { Target, Tokens } from './adapter';
 import { AskError } from './ask_error';
+import { defaultModel } from './default_models';
 import { keyFor } from './keys';
 import { isAllowed, providerOf } from './providers';
 
@@ -61,9 +62,16 @@ effect(() => {
 
 export const isDemo = computed(() => settings.value.provider === recorded);
 
-export function choiceOf(provider: string): Choice {
+/** What was entered for a provider; the model is empty when none was named. */
+export function enteredOf(provider: string): Choice {
   const base = providerOf(provider)?.base ?? '';
   return settings.value.choices[provider] ?? { base, model: '', inputPrice: null, outputPrice: null };
+}
+
+/** The same with the default model where none was named. */
+export function choiceOf(provider: string): Choice {
+  const entered = enteredOf(provider);
+  return { ...entered, model: entered.model.trim() || defaultModel(provider) };
 }
 
 export function choose(provider: string, change: Partial<Choice>): void {
@@ -71,7 +79,7 @@ export function choose(provider: string, change: Partial<Choice>): void {
   settings.value = {
     ...settings.peek(),
     provider,
-    choices: { ...choices, [provider]: { ...choiceOf(provider), ...change } },
+    choices: { ...choices, [provider]: { ...enteredOf(provider), ...change } },
   };
 }
 
@@ -87,8 +95,6 @@ export function currentTarget(): Target {
       'is not an address that this page may talk to',
       'Only the listed providers and http://localhost are open to it: choose one of them in the settings',
     );
-  if (model.trim() === '')
-    throw new AskError('settings', provider.title, 'needs the name of a model', 'Type or choose one in the settings');
   const { key } = keyFor(base);
   if (key === '' && provider.keysAt !== null)
     throw new AskError(
@@ -97,12 +103,12 @@ export function currentTarget(): Target {
       'wants a key',
       'Enter one in the settings, or switch to the recorded answers there',
     );
-  return { provider, base: base.replace(/\/+$/, ''), model: model.trim(), key };
+  return { provider, base: base.replace(/\/+$/, ''), model, key };
 }
 
 /** What tokens cost at the prices of the settings; null when a price is not known. */
-export function costOf({ input, output }: Tokens): number | null {
-  const { inputPrice, outputPrice } = choiceOf(settings.value.provider);
+export function costOf({ input, output }: Tokens, provider = settings.value.provider): number | null {
+  const { inputPrice, outputPrice } = choiceOf(provider);
   if (inputPrice === null || outputPrice === null) return null;
   return (input * inputPrice + output * outputPrice) / 1e6;
 }

@@ -8,6 +8,8 @@ import { complete, type SendOptions } from './http';
 import type { Recordings } from './recordings';
 
 export interface Source {
+  /** Whether it has answered before. Of one that has not, the first call goes alone: see ask(). Left out: it costs nothing. */
+  isProven?(): boolean;
   /** How often a prompt is asked. */
   votes(prompt: Prompt): number;
   /** The text of a reply that is there already and costs nothing. @param vote from 0 */
@@ -27,14 +29,20 @@ export interface LiveOptions extends Omit<SendOptions, 'signal'> {
   readonly picture?: string;
 }
 
+/** Whom a call has reached since the page was opened: base, model and key together. */
+const proven = new Set<string>();
+
 export function liveSource(target: Target, { votes, cache, afresh = false, picture, ...options }: LiveOptions): Source {
   const keyOf = ({ hash }: Prompt, vote: number) => [target.base, target.model, hash, vote].join(' ');
+  const whom = [target.base, target.model, target.key].join(' ');
   return {
+    isProven: () => proven.has(whom),
     votes: () => votes,
     kept: async (prompt, vote) => (afresh ? undefined : (await cache.get(keyOf(prompt, vote)))?.text),
     async reply(prompt, vote, schema, signal) {
       const call: Call = { prompt: prompt.text, schema, ...(picture === undefined ? {} : { picture }) };
       const reply = await complete(target, call, { ...options, signal });
+      proven.add(whom);
       await cache.set(keyOf(prompt, vote), reply);
       return reply;
     },
@@ -42,18 +50,19 @@ export function liveSource(target: Target, { votes, cache, afresh = false, pictu
   };
 }
 
-export function recordedSource({ replies }: Recordings): Source {
+/** What is said of a prompt without a recording. */
+const nothingRecorded = {
+  cause: 'There is no recorded answer to this request',
+  fix: 'Choose one of the recorded requests, or enter a key in the settings to ask anything',
+};
+
+export function recordedSource({ replies }: Recordings, { cause, fix } = nothingRecorded): Source {
   const of = ({ hash }: Prompt) => (Object.hasOwn(replies, hash) ? (replies[hash] ?? []) : []);
   return {
     votes: (prompt) => Math.max(1, of(prompt).length),
     kept: async (prompt, vote) => of(prompt)[vote],
     async reply() {
-      throw new AskError(
-        'no_recording',
-        '',
-        'There is no recorded answer to this request',
-        'Choose one of the recorded requests, or enter a key in the settings to ask anything',
-      );
+      throw new AskError('no_recording', '', cause, fix);
     },
     discard: async () => {},
   };

@@ -1,6 +1,7 @@
 // Reads a glTF file into meshes that are keyed as the core keys parts (meshes.ts).
 import * as three from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import type { CarveStep } from '../carve/steps';
 import { collect, type LoadedModel } from './meshes';
 
 export type { LoadedModel } from './meshes';
@@ -18,6 +19,8 @@ export interface ModelFiles {
   readonly decompressed?: { readonly compression: string; readonly lost: readonly string[] };
   /** When its parts were told apart here: what it was, and how that was done. */
   readonly split?: { readonly from: ModelFiles; readonly by: SplitBy; readonly fine: number };
+  /** When parts were joined, split or cut by hand: what it was, and the steps in order. */
+  readonly carved?: { readonly from: ModelFiles; readonly steps: readonly CarveStep[] };
   /** When the file was of another format: of which ("STL"), and what of it was left out or missing, in sentences. */
   readonly converted?: { readonly format: string; readonly remarks: readonly string[] };
   /** When the file is what a CAD program makes: the program, as plain data. */

@@ -11,6 +11,15 @@ import type { LoadedMesh, LoadedModel } from './meshes';
 export type Tint = readonly [red: number, green: number, blue: number, strength: number];
 export const noTint: Tint = [0, 0, 0, 0];
 
+/** A mesh in the local coordinates of its hexahedron. */
+export interface Surface {
+  /** Three numbers a corner. */
+  readonly positions: Float32Array<ArrayBuffer>;
+  /** Pulled back with the hexahedron's edges. */
+  readonly normals: Float32Array<ArrayBuffer>;
+  readonly triangles: Uint32Array<ArrayBuffer>;
+}
+
 interface PartMesh {
   readonly mesh: three.Mesh<three.InstancedBufferGeometry>;
   rows: three.InstancedBufferAttribute;
@@ -114,6 +123,18 @@ export class ModelView {
     this.#hidden[part] = hidden;
     const drawn = this.#parts[part];
     if (drawn) drawn.mesh.visible = this.#isDrawn(part);
+  }
+
+  /** Draws a part as what is left of it; by its instances, too. */
+  setSurface(part: number, { positions, normals, triangles }: Surface): void {
+    const geometry = this.#parts[part]?.mesh.geometry;
+    if (geometry === undefined) return;
+    geometry.dispose(); // forgets the old attributes' buffers
+    for (const name of Object.keys(geometry.attributes)) if (name !== 'cageRow') geometry.deleteAttribute(name);
+    geometry.setAttribute('position', new three.BufferAttribute(positions, 3));
+    geometry.setAttribute('normal', new three.BufferAttribute(normals, 3));
+    geometry.setIndex(new three.BufferAttribute(triangles, 1));
+    geometry.clearGroups();
   }
 
   /** The part that a row of the cage belongs to, or -1. */

@@ -17,6 +17,13 @@ export interface Highlight {
   readonly faces?: readonly FaceMark[];
 }
 
+/** In the normalised frame: a point, a direction of length 1, and how far it shall reach. */
+export interface Sheet {
+  readonly origin: Vec3;
+  readonly normal: Vec3;
+  readonly reach: number;
+}
+
 export interface OverlayColours {
   readonly accent: three.ColorRepresentation;
   readonly quiet: three.ColorRepresentation;
@@ -36,6 +43,15 @@ export class Overlays {
   readonly #points: three.Points;
   readonly #faces = new FaceOverlay();
   readonly #planes: three.Mesh[] = [];
+  readonly #ruler = new three.Line(buffer(2), new three.LineBasicMaterial({ depthTest: false, transparent: true }));
+  readonly #marks = new three.Points(
+    buffer(2),
+    new three.PointsMaterial({ size: 10, sizeAttenuation: false, depthTest: false, transparent: true }),
+  );
+  readonly #sheet = new three.Mesh(
+    new three.PlaneGeometry(2, 2),
+    new three.MeshBasicMaterial({ transparent: true, opacity: 0.3, side: three.DoubleSide, depthWrite: false }),
+  );
   readonly #planeMaterial: three.MeshBasicMaterial;
   #highlight: Highlight = { part: -1, feature: [0, 0, 0], relations: [] };
   /** Of each attachment, and of what stands on the floor: its points in local coordinates of its first part. */
@@ -61,12 +77,15 @@ export class Overlays {
       side: three.DoubleSide,
       depthWrite: false,
     });
-    for (const object of [this.#box, this.#feature, this.#featureLine, this.#guide, this.#points]) {
+    this.#ruler.visible = this.#marks.visible = false;
+    const fixed = [this.#box, this.#feature, this.#featureLine, this.#guide, this.#points, this.#ruler, this.#marks];
+    for (const object of fixed) {
       object.frustumCulled = false;
       object.renderOrder = 10;
       this.root.add(object);
     }
-    this.root.add(this.#faces.mesh);
+    this.#sheet.visible = false;
+    this.root.add(this.#faces.mesh, this.#sheet);
     const index = new Map(shape.parts.map((part, i) => [part.id, i]));
     for (const [i, relation] of shape.relations.entries()) {
       if (!isAttachment(relation)) continue;
@@ -81,7 +100,18 @@ export class Overlays {
   }
 
   setColours({ accent, quiet }: OverlayColours): void {
-    for (const object of [this.#feature, this.#featureLine, this.#guide, this.#points, this.#box, this.#faces.mesh]) {
+    const coloured = [
+      this.#feature,
+      this.#featureLine,
+      this.#guide,
+      this.#points,
+      this.#box,
+      this.#faces.mesh,
+      this.#sheet,
+      this.#ruler,
+      this.#marks,
+    ];
+    for (const object of coloured) {
       (object.material as three.LineBasicMaterial).color.set(accent);
     }
     this.#planeMaterial.color.set(quiet);
@@ -108,6 +138,27 @@ export class Overlays {
       positions.setXYZ(end, point.x + line.from[0], point.y + line.from[1], point.z + line.from[2]);
     }
     positions.needsUpdate = true;
+  }
+
+  /** The points that a ruler goes between, and the line; none takes it away. */
+  ruler(points: readonly Vec3[]): void {
+    this.#ruler.visible = points.length === 2;
+    this.#marks.visible = points.length > 0;
+    for (const geometry of [this.#ruler.geometry, this.#marks.geometry]) {
+      const positions = geometry.getAttribute('position') as three.BufferAttribute;
+      for (const [i, point] of points.entries()) positions.setXYZ(i, ...point);
+      positions.needsUpdate = true;
+    }
+    this.#marks.geometry.setDrawRange(0, points.length);
+  }
+
+  /** A sheet across a direction, through a point; null takes it away. */
+  sheet(plane: Sheet | null): void {
+    this.#sheet.visible = plane !== null;
+    if (plane === null) return;
+    this.#sheet.position.set(...plane.origin);
+    this.#sheet.quaternion.setFromUnitVectors(new three.Vector3(0, 0, 1), scratch.set(...plane.normal));
+    this.#sheet.scale.setScalar(1.15 * plane.reach);
   }
 
   /** Follows the state; allocates nothing. */

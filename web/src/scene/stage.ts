@@ -7,7 +7,7 @@ import { distanceAlong } from './drag';
 import { explode, type State } from './explode';
 import type { LoadedModel } from './meshes';
 import { ModelView, noTint } from './model_view';
-import { Overlays } from './overlays';
+import { Overlays, type Sheet } from './overlays';
 import { type Hit, Picker } from './picking';
 import { boundsOfAll, type Picture, type Projection, pictureCamera, shoot } from './pictures';
 
@@ -209,6 +209,18 @@ export class Stage {
     this.invalidate();
   }
 
+  /** Shows a ruler between points of the normalised frame; null takes it away. */
+  showRuler(points: readonly Vec3[] | null): void {
+    this.#actor?.overlays.ruler(points ?? []);
+    this.invalidate();
+  }
+
+  /** Shows a plane that something is to be cut by. */
+  showSheet(plane: Sheet | null): void {
+    this.#actor?.overlays.sheet(plane);
+    this.invalidate();
+  }
+
   setInsets(insets: Insets): void {
     this.#insets = insets;
     this.#resize();
@@ -268,6 +280,12 @@ export class Stage {
       const { x, y } = meanOf(points).project(camera);
       return { x: (x + 1) / 2, y: (1 - y) / 2 };
     };
+  }
+
+  /** For tests: which vertices of a part are corners of which triangle. */
+  trianglesOf(part: number): number[] {
+    const index = this.#actor?.view.meshOf(part)?.geometry.index;
+    return index ? [...index.array] : [];
   }
 
   /** For tests: what the graphics card makes of a part. See readback.ts. */

@@ -1,8 +1,9 @@
 // The page's end of reading other formats: a worker for one file, ended when it is done or cancelled.
+import type { Converted } from '../formats/convert';
 import type { ModelFiles } from '../scene/load';
-import type { ConvertReply, ConvertRequest } from '../worker/convert.worker';
+import type { ConvertRequest } from '../worker/convert.worker';
+import { askOnce } from '../worker/once';
 import type { Progress } from '../worker/protocol';
-import { watched } from '../worker/watch';
 import { FileError, type FoundFiles, fileLimits } from './files';
 
 /**
@@ -18,7 +19,16 @@ export async function converted(
   signal.throwIfAborted();
   onProgress({ step: `reading ${format.kind.toUpperCase()}`, done: 0, total: 1 });
   const source = { path: format.path, main: files.main, external: files.external };
-  const reply = await ask({ source, format: format.kind, limit: fileLimits.bytes }, signal);
+  const request: ConvertRequest = { source, format: format.kind, limit: fileLimits.bytes };
+  const reply = await askOnce<Converted>(
+    (name) => new Worker(new URL('../worker/convert.worker.ts', import.meta.url), { type: 'module', name }),
+    request,
+    {
+      signal,
+      unstarted: 'The reader did not start. Reload the page.',
+      ended: `The browser ended the reader of ${format.kind.toUpperCase()}: it may want too much memory. Open a smaller model.`,
+    },
+  );
   if ('error' in reply) throw new FileError(reply.error);
   const { glb, remarks } = reply;
   return {
@@ -27,22 +37,4 @@ export async function converted(
     external: new Map(),
     converted: { format: format.kind.toUpperCase(), remarks },
   };
-}
-
-async function ask(request: ConvertRequest, signal: AbortSignal): Promise<ConvertReply> {
-  const worker = watched(
-    (name) => new Worker(new URL('../worker/convert.worker.ts', import.meta.url), { type: 'module', name }),
-  );
-  const ended = `The browser ended the reader of ${request.format.toUpperCase()}: it may want too much memory. Open a smaller model.`;
-  try {
-    return await new Promise((resolve, reject) => {
-      worker.onmessage = ({ data }: MessageEvent<ConvertReply>) => resolve(data);
-      worker.onerror = ({ message }) => resolve({ error: message || 'The reader did not start. Reload the page.' });
-      worker.ondeath = () => resolve({ error: ended });
-      signal.addEventListener('abort', () => reject(signal.reason), { once: true });
-      worker.postMessage(request);
-    });
-  } finally {
-    worker.terminate();
-  }
 }

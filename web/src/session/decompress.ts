@@ -1,8 +1,8 @@
 // The page's end of decompression: a worker for one file, ended when it is done or cancelled.
 import type { ModelFiles } from '../scene/load';
-import type { DecompressReply } from '../worker/decompress.worker';
+import type { Decompressed } from '../worker/decompress';
+import { askOnce } from '../worker/once';
 import type { Progress } from '../worker/protocol';
-import { watched } from '../worker/watch';
 import { FileError, fileLimits, gltfJson } from './files';
 
 /** What a file is compressed with, by the names that people know. */
@@ -25,7 +25,15 @@ export async function decompressed(
   if (compression === undefined) return files;
   signal.throwIfAborted();
   onProgress({ step: `decompressing ${compression}`, done: 0, total: 1 });
-  const reply = await ask(files, signal);
+  const reply = await askOnce<Decompressed>(
+    (name) => new Worker(new URL('../worker/decompress.worker.ts', import.meta.url), { type: 'module', name }),
+    files,
+    {
+      signal,
+      unstarted: 'the decoder did not start',
+      ended: 'the browser ended the decoder: it may want too much memory',
+    },
+  );
   if ('error' in reply) {
     throw new FileError(
       `${files.name}: its ${compression} data cannot be read (${reply.error}). Export it again, without compression if need be.`,
@@ -35,21 +43,4 @@ export async function decompressed(
     throw new FileError(`${files.name} is more than 512 MB when it is decompressed. Open a smaller model.`);
   }
   return { name: files.name, main: reply.glb, external: new Map(), decompressed: { compression, lost: reply.lost } };
-}
-
-async function ask(files: ModelFiles, signal: AbortSignal): Promise<DecompressReply> {
-  const worker = watched(
-    (name) => new Worker(new URL('../worker/decompress.worker.ts', import.meta.url), { type: 'module', name }),
-  );
-  try {
-    return await new Promise((resolve, reject) => {
-      worker.onmessage = ({ data }: MessageEvent<DecompressReply>) => resolve(data);
-      worker.onerror = ({ message }) => resolve({ error: message || 'the decoder did not start' });
-      worker.ondeath = () => resolve({ error: 'the browser ended the decoder: it may want too much memory' });
-      signal.addEventListener('abort', () => reject(signal.reason), { once: true });
-      worker.postMessage(files);
-    });
-  } finally {
-    worker.terminate();
-  }
 }

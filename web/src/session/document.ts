@@ -41,6 +41,10 @@ export const nameLimit = 80;
 export const lengthUnits = ['mm', 'cm', 'm', 'in'] as const;
 export type LengthUnit = (typeof lengthUnits)[number];
 
+/** Sides of the object, its own: its left is +X, its front +Z. */
+export const sides = ['front', 'left', 'back', 'right'] as const;
+export type Side = (typeof sides)[number];
+
 /** Named positions of sliders. */
 export interface Preset {
   readonly name: string;
@@ -57,6 +61,8 @@ export interface LayerEntry {
   readonly value: number;
   /** Name of the group of cards that it is shown in. */
   readonly group?: string;
+  /** The side that faced whoever asked for it, where they said sides from there. */
+  readonly seen?: Side;
   /** How propagation found it. Lasts as long as the page: neither links nor autosave keep it. */
   readonly trace?: Trace;
   /** What the layer was where it last fitted, while labels have taken that shape away. Lasts as long as the page. */
@@ -73,6 +79,8 @@ export interface Document {
   /** Unit of all lengths; absent: whichever suits each. */
   readonly unit?: LengthUnit;
   readonly presets?: readonly Preset[];
+  /** Sides are said from where a person looks; absent: they are the object's own. */
+  readonly sides?: 'seen';
   /** Of a CAD program: its family, whose sliders are layers like any others. */
   readonly family?: FamilyState;
 }
@@ -121,6 +129,10 @@ export function withFreshParameters(layers: readonly Layer[], taken: ReadonlySet
     ),
   }));
 }
+
+/** What the parts are called, in the order of the shape. */
+export const partNames = (document: Document): string[] =>
+  (document.model?.shape.parts ?? []).map(({ id, name }) => document.names.get(id) ?? name);
 
 export function nameOf(document: Document, id: string): string {
   return document.names.get(id) ?? document.model?.shape.parts.find((part) => part.id === id)?.name ?? id;

@@ -16,6 +16,7 @@ import {
   familyLayers,
   lengthAt,
   mixed,
+  type NamedVariation,
   parametersAt,
   type SavedFamily,
   type Setting,
@@ -37,15 +38,11 @@ export async function withProgramRead(core: ModelCore, files: FoundFiles, option
   if (files.program === undefined) return files;
   const { read, glb } = await core.readCad(files.name, files.main, options);
   const beside = files.program.variations;
-  const uncut = read.parts.filter(({ role }) => role !== 'add').length;
   const cad: CadSource = {
     program: read.cad,
     variations: beside === null ? null : variationsIn(beside),
     parts: read.parts,
-    remarks: [
-      ...read.warnings.slice(0, 3).map((text) => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`),
-      ...(uncut > 0 ? [`${uncut} ${uncut === 1 ? 'part' : 'parts'} that cut others are not drawn.`] : []),
-    ],
+    remarks: read.warnings.slice(0, 3).map((text) => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`),
   };
   return { name: files.name, main: glb, external: new Map(), cad };
 }
@@ -93,6 +90,8 @@ export interface FamilyActions {
   choose(core: ModelCore, changes: ReadonlyMap<string, Choice | null>): Promise<void>;
   /** Makes a variation of what is shown. False, and a sentence, when that cannot be. */
   keepVariation(core: ModelCore, name: string): Promise<boolean>;
+  /** Adds variations in one step; those of the same names give way. False, and a sentence, when that cannot be. */
+  addVariations(core: ModelCore, added: readonly NamedVariation[]): Promise<boolean>;
   removeVariation(core: ModelCore, variation: number): Promise<void>;
 }
 
@@ -232,12 +231,18 @@ export function createFamily(
       values: parametersAt(family, settingNow(family)),
       absent,
     };
-    const variations = {
-      format: 'parsel/variations',
-      version: 1,
-      variations: [...(family.variations?.variations ?? []), kept],
-    };
-    return find(core, variations, family.choices, `keep “${name}”`);
+    return addVariations(core, [kept]);
+  }
+
+  async function addVariations(core: ModelCore, added: readonly NamedVariation[]): Promise<boolean> {
+    const { family } = document.peek();
+    const [first] = added;
+    if (family === undefined || first === undefined) return false;
+    const names = new Set(added.map(({ name }) => name));
+    const others = (family.variations?.variations ?? []).filter(({ name }) => !names.has(name));
+    const variations = { format: 'parsel/variations', version: 1, variations: [...others, ...added] };
+    const label = added.length === 1 ? `keep “${first.name}”` : `keep ${added.length} kinds`;
+    return find(core, variations, family.choices, label);
   }
 
   async function removeVariation(core: ModelCore, variation: number): Promise<void> {
@@ -248,5 +253,5 @@ export function createFamily(
     await find(core, variations, family.choices, `remove “${list[variation]?.name ?? ''}”`);
   }
 
-  return { mixing, settingNow, isAt, mix, showVariation, choose, keepVariation, removeVariation };
+  return { mixing, settingNow, isAt, mix, showVariation, choose, keepVariation, addVariations, removeVariation };
 }

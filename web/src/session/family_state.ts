@@ -10,8 +10,13 @@ export type FamilySlider = FoundFamily['family']['sliders'][number];
 export type Choice = 'forced' | 'off';
 export type Choices = Readonly<Record<string, Choice>>;
 
+/** One entry of `parsel/variations`, of which only the name matters here. */
+export interface NamedVariation {
+  readonly name: string;
+}
+
 /** `parsel/variations` v1 as the core takes it; null: none. */
-export type Variations = { readonly variations: readonly { readonly name: string }[] } | null;
+export type Variations = { readonly variations: readonly NamedVariation[] } | null;
 
 /** What the core found for a program, its variations and what was chosen. */
 export interface FamilySource {
@@ -173,6 +178,17 @@ export function absentParts({ family, model, hidden }: Document): ReadonlySet<st
   const ids = shapeIds(cad, model.shape);
   const optional = family.found.family.optional.flatMap(({ parts }) => parts.map((id) => ids.get(id) ?? ''));
   return new Set(optional.filter((id) => hidden.has(id)));
+}
+
+/** The same by id of the program, with parts that only cut: they go with what they are absent with. */
+export function absentIds(document: Document): ReadonlySet<string> {
+  const { family, model } = document;
+  const cad = model?.files.cad;
+  if (family === undefined || cad === undefined || model === null) return new Set();
+  const ids = shapeIds(cad, model.shape);
+  const hidden = absentParts(document);
+  const gone = family.found.family.optional.filter(({ parts }) => parts.some((id) => hidden.has(ids.get(id) ?? '')));
+  return new Set(gone.flatMap(({ parts }) => parts));
 }
 
 /** The layers that are no sliders of the family. */

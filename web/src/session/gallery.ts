@@ -44,21 +44,29 @@ export function loadGallery(): Promise<readonly GalleryEntry[]> {
   return loading;
 }
 
-const programsSchema = v.array(v.strictObject({ id: v.pipe(v.string(), v.regex(/^\w+_program$/)), title: v.string() }));
+const listSchema = v.array(v.strictObject({ id: v.pipe(v.string(), v.regex(/^\w+$/)), title: v.string() }));
 
 /** The CAD programs that come with the page: gallery/programs.json. Empty when it came without. */
-export async function loadPrograms(): Promise<v.InferOutput<typeof programsSchema>> {
+export const loadPrograms = () => loadList('programs');
+/** Models of the gallery once more, without any name in them: gallery/nameless.json. */
+export const loadNameless = () => loadList('nameless');
+
+async function loadList(name: string): Promise<v.InferOutput<typeof listSchema>> {
   try {
-    const response = await fetch('./gallery/programs.json');
-    return response.ok ? v.parse(programsSchema, await response.json()) : [];
+    const response = await fetch(`./gallery/${name}.json`);
+    return response.ok ? v.parse(listSchema, await response.json()) : [];
   } catch {
     return [];
   }
 }
 
+const program = '_program';
+
 /** What of the gallery is a CAD program: its text, and what it is opened together with. */
 export const programUrls = (id: string): readonly string[] | null =>
-  id.endsWith('_program') ? [`./gallery/${id}.scad`, `./gallery/${id}.variations.json`] : null;
+  id.endsWith(program)
+    ? ['scad', 'variations.json'].map((kind) => `./gallery/programs/${id.slice(0, -program.length)}.${kind}`)
+    : null;
 
 /** Of a model; of a program, what it makes. */
 export const galleryUrl = (id: string): string => `./gallery/${id}.glb`;

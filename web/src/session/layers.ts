@@ -9,9 +9,14 @@ import { activeLayers, type Evaluation } from './evaluation';
 import type { History, Mark } from './history';
 import type { Propagation } from './model_core';
 import type { Tasks } from './tasks';
-import type { Trace } from './trace';
 
 export { titleOf } from '../program/title';
+
+/** How layers came about. */
+export type Made = Pick<LayerEntry, 'trace' | 'seen'>;
+
+/** What propagation leaves with the layers that it found. */
+export const madeBy = ({ trace }: Pick<Propagation, 'trace'>): Made => (trace === undefined ? {} : { trace });
 
 export interface Layers {
   /** Keeps where a slider has been moved to, as one step of the history. */
@@ -26,12 +31,13 @@ export interface Layers {
   /** Layers of a program as they would stand behind the present ones; null, and a sentence, when they do not fit. */
   entriesOf(found: Propagation): readonly LayerEntry[] | null;
   /** Adds the layers of a program behind the present ones; answers their keys, or null when they do not fit. */
-  addProgram(program: Program, label: string, trace?: Trace): readonly number[] | null;
+  addProgram(program: Program, label: string, made?: Made): readonly number[] | null;
   /**
    * Puts another layer in place of one, in the step that made it: later steps stay, and the slider stays where it is.
    * False when that step is undone, when the layer is gone, or when the other does not fit, which it says.
+   * @param made how the other came about; left out: as the layer before, with what propagation left
    */
-  amendLayer(mark: Mark, key: number, found: Propagation): boolean;
+  amendLayer(mark: Mark, key: number, found: Propagation, made?: Made): boolean;
   /**
    * Puts what was found in place of a layer, as a step; its slider stays where it is, if it goes so far. False when the layer
    * is gone or the other does not fit, which it says.
@@ -94,32 +100,33 @@ export function createLayers(
     return goTogether([...activeLayers(document.peek()), ...entries]) ? entries : null;
   }
 
-  function addProgram(program: Program, label: string, trace?: Trace): readonly number[] | null {
-    const entries = entriesOf({ program, ...(trace === undefined ? {} : { trace }) });
+  function addProgram(program: Program, label: string, made: Made = {}): readonly number[] | null {
+    const entries = entriesOf({ program })?.map((entry) => ({ ...entry, ...made })) ?? null;
     if (entries === null) return null;
     changeLayers(label, (layers) => [...layers, ...entries]);
     return entries.map(({ key }) => key);
   }
 
   /** How what was found takes the place of a layer among others; null when it cannot, which it says. */
-  function replacing(key: number, { program, trace }: Propagation): ((entries: Entries) => Entries) | null {
+  function replacing(key: number, found: Propagation, made?: Made): ((entries: Entries) => Entries) | null {
     const { layers } = document.peek();
     const others = layers.filter((entry) => entry.key !== key);
-    const [layer] = named(program.layers, others);
+    const [layer] = named(found.program.layers, others);
     if (layer === undefined || others.length === layers.length) return null;
-    const amended = ({ value, enabled }: LayerEntry): LayerEntry => ({
+    const amended = ({ value, enabled, group, seen }: LayerEntry): LayerEntry => ({
       key,
       layer,
       enabled,
       value: clamp(value, layer.parameter),
-      ...(trace === undefined ? {} : { trace }),
+      ...(group === undefined ? {} : { group }),
+      ...(made ?? { ...madeBy(found), ...(seen === undefined ? {} : { seen }) }),
     });
     const inPlace = (entries: Entries) => entries.map((entry) => (entry.key === key ? amended(entry) : entry));
     return goTogether(inPlace(activeLayers(document.peek()))) ? inPlace : null;
   }
 
-  function amendLayer(mark: Mark, key: number, found: Propagation): boolean {
-    const inPlace = replacing(key, found);
+  function amendLayer(mark: Mark, key: number, found: Propagation, made?: Made): boolean {
+    const inPlace = replacing(key, found, made);
     if (inPlace === null) return false;
     const { model } = document.peek();
     // What was found holds for this model and its labels; states of before another was given keep what they had.

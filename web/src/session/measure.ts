@@ -231,9 +231,9 @@ function lengthUnit(metres: number, chosen?: LengthUnit): { unit: LengthUnit; fa
 /** What decides the unit of two values that are shown beside each other. */
 export const larger = (a: number, b: number): number => Math.max(Math.abs(a), Math.abs(b));
 
-/** Three lengths in one unit, without it, and the unit. */
+/** Lengths in metres, all in one unit, without it, and the unit. */
 export function formatLengths(
-  size: Size,
+  size: readonly number[],
   chosen?: LengthUnit,
 ): { readonly lengths: readonly string[]; unit: LengthUnit } {
   const { unit, factor, digits } = lengthUnit(Math.max(...size), chosen);

@@ -82,6 +82,9 @@ export interface ModelCore {
   ): Promise<{ found: MethodResult<'find_family'>; pictures: readonly Uint8Array[] }>;
   /** A family as an OpenSCAD program. */
   familyText(about: Parameters<'family_text'>): Promise<MethodResult<'family_text'>>;
+  /** What a language model is asked about a CAD program, and what its replies mean. */
+  cadPrompt(about: Parameters<'cad_prompt'>): Promise<MethodResult<'cad_prompt'>>;
+  readCadReplies(about: Parameters<'read_cad_replies'>): Promise<MethodResult<'read_cad_replies'>>;
   /** What its replies mean. */
   readReplies(model: OpenModel, request: string, replies: Replies[]): Promise<Inference>;
 }
@@ -180,6 +183,12 @@ export function modelCore(client: CoreClient): ModelCore {
     },
     async familyText(about) {
       return (await client.call('family_text', about)).result;
+    },
+    async cadPrompt(about) {
+      return (await client.call('cad_prompt', about)).result;
+    },
+    async readCadReplies(about) {
+      return (await client.call('read_cad_replies', about)).result;
     },
     async readReplies(model, request, replies) {
       return (await client.call('read_replies', { request, replies }, { needs: stateOf(model) })).result;

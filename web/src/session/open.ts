@@ -3,7 +3,9 @@ import { computed, signal } from '@preact/signals';
 import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
 import { withExtras } from '../share/extras';
 import { lostWords, type Saved, type Work } from '../share/saved';
+import { carved, carvedAs } from './carve';
 import { converted } from './convert';
+import { firstCuts, isCut } from './cuts';
 import { decompressed } from './decompress';
 import {
   type Document,
@@ -61,7 +63,7 @@ interface Opened {
   readonly work: Work | null;
   /** Of a CAD program. */
   readonly family: FamilySource | null;
-  /** A sentence on sliders in the file that are left out. */
+  /** A sentence on sliders in the file that are left out, or on cuts that are not drawn. */
   readonly refused: string | null;
 }
 
@@ -76,7 +78,8 @@ async function abstract(
     const picked = await withProgramRead(core, await get(options.signal), options);
     const taken = takeSliders(await converted(picked, options));
     const found = given === null ? taken.found : null;
-    const files = await splitAs(given?.saved.split, await decompressed(taken.files, options), core, options);
+    const whole = await splitAs(given?.saved.split, await decompressed(taken.files, options), core, options);
+    const files = await carvedAs(given?.saved.carved, whole, carved, options);
     let labels = labelsOf(given ?? found?.work ?? null);
     let shape = await core.open(files, options, labels);
     const misfits = found?.misfit(shape) ?? null;
@@ -88,9 +91,11 @@ async function abstract(
     await prepare(files);
     options.signal.throwIfAborted();
     const model = { files, source, shape, labels };
-    if (given !== null) return { model, work: given, family, refused: null };
+    if (isCut(files)) options.onProgress({ step: 'cutting parts', done: 0, total: 1 });
+    const uncut = await firstCuts(model, options.signal);
+    if (given !== null) return { model, work: given, family, refused: uncut };
     const own = misfits === null ? (found?.work ?? null) : null;
-    return { model, work: own, family, refused: misfits ?? taken.refused };
+    return { model, work: own, family, refused: misfits ?? taken.refused ?? uncut };
   });
 }
 
@@ -213,24 +218,32 @@ export function reopen(core: ModelCore, files: ModelFiles, source: ModelSource, 
 }
 
 /** Gives a part another label (null: the file's own): the shape is abstracted anew, and the work carried over to it. */
-export async function relabel(core: ModelCore, keys: readonly string[], label: string | null): Promise<boolean> {
+export const relabel = (core: ModelCore, keys: readonly string[], label: string | null): Promise<boolean> =>
+  relabelAll(core, new Map(keys.map((key) => [key, label])), 'change label');
+
+/** The same for many parts in one step, by partKey(). */
+export async function relabelAll(
+  core: ModelCore,
+  given: ReadonlyMap<string, string | null>,
+  step: string,
+): Promise<boolean> {
   const { model } = document.peek();
   if (model === null) return false;
   const labels = new Map(model.labels);
-  for (const key of keys)
+  for (const [key, label] of given)
     if (label === null) labels.delete(key);
     else labels.set(key, label);
   const shape = await run('Looking at the parts again', (options) => core.open(model.files, options, labels));
   if (shape === null || document.peek().model !== model) return false;
   const next = carryOver(document.peek(), { ...model, shape, labels });
-  replaceDocument(next, 'change label');
+  replaceDocument(next, step);
   const lost = next.layers.filter(({ layer }) => misfit(shape, layer) !== null);
   if (lost.length > 0) {
     const them =
       lost.length === 1
         ? 'One edit no longer fits the parts and rests'
         : `${lost.length} edits no longer fit the parts and rest`;
-    say(`${them}. Undo takes the label back.`);
+    say(`${them}. Undo takes ${given.size === 1 ? 'the label' : 'the labels'} back.`);
   }
   return true;
 }

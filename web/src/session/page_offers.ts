@@ -4,6 +4,7 @@ import wasmUrl from 'parsel-module/parsel.wasm?url';
 import { startCore } from '../worker/client';
 import { models } from './core';
 import { emptyProgram } from './document';
+import { madeBy } from './layers';
 import { modelCore } from './model_core';
 import { createOffers, type Offer } from './offers';
 import { addProgram, document, draft } from './session';
@@ -19,7 +20,7 @@ export function keepOffer(offer: Offer, value: number): number | null {
   if (model === null) return null;
   draft.value = null;
   const layer = { ...offer.layer, parameter: { ...offer.layer.parameter, value } };
-  const [key] = addProgram({ ...emptyProgram(model.shape), layers: [layer] }, offer.title, offer.trace) ?? [];
+  const [key] = addProgram({ ...emptyProgram(model.shape), layers: [layer] }, offer.title, madeBy(offer)) ?? [];
   if (key === undefined) return null;
   drop(offer);
   return key;

@@ -4,6 +4,7 @@ import { batch, computed, type ReadonlySignal, signal } from '@preact/signals';
 import { AskError } from '../llm/ask_error';
 import type { Layer } from '../program/types';
 import { type EditInput, type LayerEntry, type OpenModel, withFreshParameters, withRequest } from './document';
+import { madeBy } from './layers';
 import type { ModelCore, Propagation } from './model_core';
 import { type About, type Asker, type PaintNumbered, propose, readProposal, type Spent } from './propose';
 import type { Session } from './session';
@@ -262,7 +263,7 @@ export function createProposals({ session, models, askerOf }: ProposalsParts): P
       const program = at(withRequest(found.program, one.request), standing(key));
       return batch(() => {
         unshow();
-        const layer = session.addProgram(program, one.request, found.trace)?.[0] ?? null;
+        const layer = session.addProgram(program, one.request, madeBy(found))?.[0] ?? null;
         if (layer !== null)
           changeAll((all) => all.map((other) => (other.key === key ? { ...other, kept: layer } : other)));
         return layer;

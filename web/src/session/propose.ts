@@ -1,7 +1,7 @@
 // Asking a language model for requests: the prompt of a task that proposes, with a picture of the model where the model that
 // is asked can see, and its replies. What each proposal means is read like any request.
 import { AskError } from '../llm/ask_error';
-import { ask } from '../llm/session';
+import { type Answer, type AskOptions, ask } from '../llm/session';
 import type { Source } from '../llm/source';
 import type { Inference, Prompt } from '../worker/protocol';
 import type { EditInput, OpenModel } from './document';
@@ -36,8 +36,53 @@ export interface Spent {
   readonly tokens: { readonly input: number; readonly output: number };
 }
 
+/** A task that is asked on its own, and the request that it is about, if any. */
+export interface Alone {
+  readonly task: string;
+  readonly request: string;
+}
+
+/**
+ * What comes of a task that is asked on its own: with a picture where whoever is asked can see one, else without.
+ * @param meaning what is wanted of the answer; it throws when that is not in it
+ * @throws AskError when nobody can be asked, or what `meaning` throws; or the signal's reason
+ */
+export async function askAlone<T>(
+  core: ModelCore,
+  model: OpenModel,
+  { task, request }: Alone,
+  asker: Pick<Asker, 'proposer' | 'isBlind'>,
+  paint: PaintNumbered,
+  options: AskOptions,
+  meaning: (answer: Answer) => T,
+): Promise<T> {
+  const once = async (picture: boolean): Promise<T | null> => {
+    const asked = { task, request, mentioned: [], count: 0, picture };
+    const { prompt, words, schema, numbered } = await core.proposalPrompt(model, asked);
+    const source = asker.proposer(prompt, picture ? () => paint(numbered) : null);
+    if (source === null) return null;
+    const answer = await ask(
+      { prompts: [prompt], tasks: { [prompt.task]: { words, schema } } },
+      source,
+      (replies) => core.readReplies(model, request, replies),
+      options,
+    );
+    return meaning(answer);
+  };
+  let seen: T | null = null;
+  try {
+    seen = await once(true);
+  } catch (error) {
+    if (!(error instanceof AskError && error.kind === 'request')) throw error;
+    asker.isBlind();
+  }
+  const found = seen ?? (await once(false));
+  if (found === null) throw unusable('nobody can be asked');
+  return found;
+}
+
 /** @throws AskError when there is no reply that can be read; or the signal's reason */
-export async function propose(
+export function propose(
   core: ModelCore,
   model: OpenModel,
   about: About,
@@ -45,37 +90,22 @@ export async function propose(
   paint: PaintNumbered,
   signal: AbortSignal,
 ): Promise<Proposed> {
-  const request = about.task === 'request_variations' ? about.request : '';
-  const once = async (picture: boolean): Promise<Proposed | null> => {
-    const asked = { task: about.task, request, mentioned: [], count: 0, picture };
-    const { prompt, words, schema, numbered } = await core.proposalPrompt(model, asked);
-    const source = asker.proposer(prompt, picture ? () => paint(numbered) : null);
-    if (source === null) return null;
-    const { inference, calls, tokens, failures } = await ask(
-      { prompts: [prompt], tasks: { [prompt.task]: { words, schema } } },
-      source,
-      (replies) => core.readReplies(model, request, replies),
-      { signal, onProgress: () => {} },
-    );
+  const alone = { task: about.task, request: about.task === 'request_variations' ? about.request : '' };
+  return askAlone(core, model, alone, asker, paint, { signal, onProgress: () => {} }, (answer) => {
+    const { inference, calls, tokens } = answer;
     const { requests = [], dropped = [] } = inference.proposals ?? {};
     if (requests.length > 0) return { requests, dropped, calls, tokens };
-    const [refused] = inference.refused;
-    const reason = failures[0] ?? (refused && unusable(refused.error.cause)) ?? unusable(dropped[0]?.reason);
-    throw reason;
-  };
-  let seen: Proposed | null = null;
-  try {
-    seen = await once(true);
-  } catch (error) {
-    if (!(error instanceof AskError && error.kind === 'request')) throw error;
-    asker.isBlind();
-  }
-  const proposed = seen ?? (await once(false));
-  if (proposed === null) throw unusable('nobody can be asked');
-  return proposed;
+    throw whyUnread(answer) ?? unusable(dropped[0]?.reason);
+  });
 }
 
-const unusable = (why = 'it proposes nothing') =>
+/** Why an answer holds nothing, where calls failed or replies were refused. */
+export function whyUnread({ inference, failures }: Answer): AskError | undefined {
+  const [refused] = inference.refused;
+  return failures[0] ?? (refused && unusable(refused.error.cause));
+}
+
+export const unusable = (why = 'it proposes nothing') =>
   new AskError('unreadable', '', `The answer could not be used: ${why}`, 'Ask again, or ask another language model');
 
 /** What a proposed request means. Which symmetries may go is not asked: it would be many times as many questions. */

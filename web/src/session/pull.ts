@@ -23,6 +23,7 @@ import {
   sliderValue,
   useCore,
 } from './session';
+import { snapped } from './snapping';
 import { sentence } from './tasks';
 
 /** A feature of a part that a hand holds; the whole part is moved, a face stretches it. */
@@ -180,15 +181,20 @@ function follow(key: number, part: number, feature: LocalTriple, direction: Vec3
 export function pullTo(distance: number): void {
   const layer = pull.peek()?.layer;
   if (!layer || Math.abs(layer.gain) < 1e-6) return;
-  slide(layer.key, layer.start + distance / layer.gain);
+  const entry = entryOf(layer.key);
+  const value = Math.min(layer.max, Math.max(layer.min, layer.start + distance / layer.gain));
+  slide(layer.key, entry === undefined ? value : snapped(entry, value));
 }
 
 /** By keyboard: hundredths of the range, outwards. */
 export function pullBy(steps: number): void {
   const layer = pull.peek()?.layer;
   const entry = layer && entryOf(layer.key);
-  if (layer && entry)
-    slide(layer.key, sliderValue(entry) + (steps * Math.sign(layer.gain) * (layer.max - layer.min)) / 100);
+  if (!layer || !entry) return;
+  const sign = Math.sign(layer.gain);
+  const value = sliderValue(entry);
+  const next = snapped(entry, value, steps * sign);
+  slide(layer.key, next === value ? value + (steps * sign * (layer.max - layer.min)) / 100 : next);
 }
 
 /** Lets go: what was pulled becomes a layer, or the new value of one. Answers its key; null when nothing had moved. */

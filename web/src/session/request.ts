@@ -6,8 +6,10 @@ import { type Answer, ask, type Estimate, estimate, type TaskProgress } from '..
 import type { Source } from '../llm/source';
 import type { Layer } from '../program/types';
 import type { Inference, PlainInference, Target } from '../worker/protocol';
-import type { EditInput, OpenModel } from './document';
+import { type EditInput, type OpenModel, partNames, type Side } from './document';
 import type { Mark } from './history';
+import { madeBy } from './layers';
+import { type Said, saidFrom } from './looking';
 import type { ModelCore } from './model_core';
 import type { Session } from './session';
 import { sentence } from './tasks';
@@ -26,6 +28,8 @@ export interface Understood {
   /** The text that was sent, as it was typed. */
   readonly typed: string;
   readonly mentioned: readonly string[];
+  /** Whose sides it speaks of. */
+  readonly said: Said;
   readonly answer: Answer;
   /** How sure it is and what it comes to, where no language model was asked. */
   readonly plain: PlainInference['plain'] | null;
@@ -46,7 +50,10 @@ export type RequestState =
   | Understood;
 
 export interface Question {
+  /** As it is asked. */
   readonly request: string;
+  /** As it is shown. */
+  readonly title: string;
   readonly mentioned: readonly string[];
   readonly source: Source;
 }
@@ -55,7 +62,9 @@ export interface RequestParts {
   readonly session: Session;
   readonly models: ReadonlySignal<ModelCore | null>;
   /** Whom to ask what. Rejects with an AskError that says why nobody can be asked. `afresh`: not what was kept. */
-  questionOf(model: OpenModel, text: string, mentioned: readonly string[], afresh: boolean): Promise<Question>;
+  questionOf(model: OpenModel, said: Said, mentioned: readonly string[], afresh: boolean): Promise<Question>;
+  /** The side of the object that faces whoever types; null: the object's own sides are meant. */
+  seen(): Side | null;
   /** How often each prompt is asked; null where nothing is paid for. */
   votes(): number | null;
   /** Shows what a layer does. */
@@ -87,6 +96,8 @@ export interface Requests {
    * what came before.
    */
   askAgain(before: Understood): Promise<void>;
+  /** Reads it once more with other sides: those of whoever looks at that side of the object, or its own. In its place, too. */
+  readFrom(before: Understood, side: Side | null): Promise<void>;
   /** Calls and tokens that sending would take; null where nothing is paid for. */
   estimateRequest(): Promise<Estimate | null>;
   /** Takes another reading of the request. */
@@ -100,7 +111,7 @@ export interface Requests {
 /** Failures that the settings can cure. */
 const settingFailures = ['settings', 'no_key', 'wrong_key', 'no_credit', 'model_unknown', 'blocked', 'no_recording'];
 
-export function createRequests({ session, models, questionOf, votes, play, aim }: RequestParts): Requests {
+export function createRequests({ session, models, questionOf, seen, votes, play, aim }: RequestParts): Requests {
   const { document } = session;
   const requestText = signal('');
   const mentioned = signal<readonly string[]>([]);
@@ -114,6 +125,8 @@ export function createRequests({ session, models, questionOf, votes, play, aim }
   /** Counts applications: a later one goes on from where an earlier one is. */
   let attempt = 0;
 
+  const saying = (text: string, from = seen()): Said => saidFrom(text, from, partNames(document.peek()));
+
   function dismiss(): void {
     if (request.peek().kind !== 'asking') request.value = { kind: 'idle' };
   }
@@ -123,7 +136,8 @@ export function createRequests({ session, models, questionOf, votes, play, aim }
     request.value = { kind: 'failed', text: sentence(error), isSetting };
   }
 
-  async function send(before: Understood | null): Promise<void> {
+  /** @param anew a language model is asked, what it answered before included */
+  async function send(before: Understood | null, anew = false): Promise<void> {
     const core = models.peek();
     const { model } = document.peek();
     if (requestText.peek().trim() === '' || request.peek().kind === 'asking') return;
@@ -140,7 +154,8 @@ export function createRequests({ session, models, questionOf, votes, play, aim }
     request.value = { kind: 'asking', tasks: [], cancel };
     try {
       const known = parts.filter((id) => model.shape.parts.some((part) => part.id === id));
-      const readPlainly = () => core.readPlainly(model, typed.trim(), known);
+      const said = before?.said ?? saying(typed.trim());
+      const readPlainly = () => core.readPlainly(model, said.own, known);
       const whole = (inference: Inference, plain: PlainInference['plain'] | null): Promise<void> =>
         understand(
           {
@@ -149,24 +164,25 @@ export function createRequests({ session, models, questionOf, votes, play, aim }
             request: typed.trim(),
             typed,
             mentioned: parts,
+            said,
             answer: { inference, tokens: { input: 0, output: 0 }, calls: 0, kept: 0, failures: [] },
             plain,
             ...readingOf(inference, plain, 0),
             reading: 0,
-            made: null,
+            made: before?.made ?? null,
           },
           signal,
         );
       // What costs nothing and is sure comes first.
-      if (before === null && votes() !== null) {
+      if (!anew && votes() !== null) {
         const read = await readPlainly();
         if (read.plain.sure) return await whole(read, read.plain);
       }
       let question: Question;
       try {
-        question = await questionOf(model, typed.trim(), known, before !== null);
+        question = await questionOf(model, said, known, anew);
       } catch (error) {
-        if (before !== null || !(error instanceof AskError) || error.kind !== 'no_recording') throw error;
+        if (anew || !(error instanceof AskError) || error.kind !== 'no_recording') throw error;
         const read = await readPlainly();
         if (read.plain.readings.length === 0) throw notUnderstood(read.plain);
         return await whole(read, read.plain);
@@ -187,9 +203,10 @@ export function createRequests({ session, models, questionOf, votes, play, aim }
         {
           kind: 'understood',
           model,
-          request: question.request,
+          request: question.title,
           typed,
           mentioned: parts,
+          said,
           answer,
           plain: null,
           ...readingOf(answer.inference, null, 0),
@@ -202,6 +219,12 @@ export function createRequests({ session, models, questionOf, votes, play, aim }
       if (signal.aborted) request.value = { kind: 'idle' };
       else fail(error);
     }
+  }
+
+  async function resend(before: Understood, anew: boolean): Promise<void> {
+    requestText.value = before.typed;
+    mentioned.value = before.mentioned;
+    await send(before, anew);
   }
 
   async function understand(state: Understood, signal: AbortSignal): Promise<void> {
@@ -226,12 +249,14 @@ export function createRequests({ session, models, questionOf, votes, play, aim }
     const { made } = state;
     const found = await session.find(core, state.edit, state.request, made?.key);
     if (found === null || own !== attempt) return;
+    const { seen: side } = state.said;
+    const from = { ...madeBy(found), ...(side === null ? {} : { seen: side }) };
     const isThere = made !== null && document.peek().layers.some(({ key }) => key === made.key);
     if (made !== null && isThere) {
-      if (session.amendLayer(made.mark, made.key, found)) finish(state, made);
+      if (session.amendLayer(made.mark, made.key, found, from)) finish(state, made);
       return;
     }
-    const key = session.addProgram(found.program, state.request, found.trace)?.[0];
+    const key = session.addProgram(found.program, state.request, from)?.[0];
     if (key !== undefined) finish(state, { key, mark: session.mark() });
   }
 
@@ -277,11 +302,8 @@ export function createRequests({ session, models, questionOf, votes, play, aim }
       });
     },
     sendRequest: () => send(null),
-    async askAgain(before) {
-      requestText.value = before.typed;
-      mentioned.value = before.mentioned;
-      await send(before);
-    },
+    askAgain: (before) => resend(before, true),
+    readFrom: (before, side) => resend({ ...before, said: saying(before.typed.trim(), side) }, false),
     async estimateRequest() {
       const core = models.peek();
       const { model } = document.peek();
@@ -289,8 +311,9 @@ export function createRequests({ session, models, questionOf, votes, play, aim }
       const count = votes();
       if (count === null || core === null || model === null || text === '') return null;
       // What will be read without a language model costs nothing.
-      if ((await core.readPlainly(model, text, mentioned.peek())).plain.sure) return null;
-      const { prompts } = await core.prompts(model, text, mentioned.peek());
+      const said = saying(text);
+      if ((await core.readPlainly(model, said.own, mentioned.peek())).plain.sure) return null;
+      const { prompts } = await core.prompts(model, said.told, mentioned.peek());
       return estimate(prompts, count);
     },
     chooseReading(reading) {

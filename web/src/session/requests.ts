@@ -6,24 +6,28 @@ import { findRecorded, loadRecordings } from '../llm/recordings';
 import { currentTarget, isDemo, settings } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
 import { models } from './core';
-import type { OpenModel } from './document';
+import { type OpenModel, partNames } from './document';
+import { facing, speaksAsSeen } from './facing';
+import { type Said, saidFrom } from './looking';
 import { playOnce } from './play';
 import { createRequests, type Question } from './request';
 import { session } from './session';
 import { aimAt } from './target';
+
+const seen = () => (speaksAsSeen.peek() ? facing.peek() : null);
 
 const galleryOf = ({ source }: OpenModel): string | null => (source.kind === 'gallery' ? source.id : null);
 
 /** @throws AskError that says why nobody can be asked */
 async function questionOf(
   model: OpenModel,
-  text: string,
+  { typed, own, told }: Said,
   parts: readonly string[],
   afresh: boolean,
 ): Promise<Question> {
   if (!isDemo.peek()) {
     const source = liveSource(currentTarget(), { votes: settings.peek().votes, cache: browserCache, afresh });
-    return { request: text, mentioned: parts, source };
+    return { request: told, title: typed, mentioned: parts, source };
   }
   if (model.labels.size > 0)
     throw new AskError(
@@ -34,7 +38,7 @@ async function questionOf(
     );
   const gallery = galleryOf(model);
   const recordings = gallery === null ? null : await loadRecordings(gallery);
-  const known = findRecorded(recordings, text, parts);
+  const known = findRecorded(recordings, own, parts);
   if (recordings === null || recordings.requests.length === 0)
     throw new AskError(
       'no_recording',
@@ -49,7 +53,17 @@ async function questionOf(
       'This request has no recorded answer',
       'Try one of the recorded ones below, or enter a key in the settings to ask anything',
     );
-  return { ...known, source: recordedSource(recordings) };
+  return { ...known, title: own === typed ? known.request : typed, source: recordedSource(recordings) };
+}
+
+/** The questions to the letter that what is typed would ask, whoever is asked; none while nothing is, or no model is open. */
+export async function questionTexts(): Promise<readonly string[]> {
+  const core = models.peek();
+  const { model } = session.document.peek();
+  const text = requestText.peek().trim();
+  if (core === null || model === null || text === '') return [];
+  const { told } = saidFrom(text, seen(), partNames(session.document.peek()));
+  return (await core.prompts(model, told, mentioned.peek())).prompts.map((prompt) => prompt.text);
 }
 
 export const {
@@ -63,6 +77,7 @@ export const {
   forgetOtherModels,
   mention,
   mentioned,
+  readFrom,
   request,
   requestLayer,
   requestText,
@@ -72,6 +87,7 @@ export const {
   session,
   models,
   questionOf,
+  seen,
   votes: () => (isDemo.peek() ? null : settings.peek().votes),
   play: playOnce,
   aim: aimAt,

@@ -5,7 +5,7 @@ import { type Document, type EditInput, emptyDocument, withRequest } from './doc
 import { createEvaluation, type Evaluation } from './evaluation';
 import { createFamily, type FamilyActions } from './family';
 import { History, type Mark } from './history';
-import { createLayers, type Layers } from './layers';
+import { createLayers, type Layers, madeBy } from './layers';
 import type { ModelCore, Propagation } from './model_core';
 import { createParts, type Parts } from './parts';
 import { createStack, type Stack } from './stack';
@@ -63,8 +63,8 @@ export function createSession(): Session {
     ...parts,
     family,
     ...stack,
-    amendLayer(mark, key, found) {
-      const amended = layers.amendLayer(mark, key, found);
+    amendLayer(mark, key, found, made) {
+      const amended = layers.amendLayer(mark, key, found, made);
       if (amended) restack(key);
       return amended;
     },
@@ -101,7 +101,7 @@ export function createSession(): Session {
     async propagate(core, edit, request) {
       const found = await find(core, edit, request);
       if (found === null) return null;
-      return layers.addProgram(found.program, request || 'edit', found.trace)?.[0] ?? null;
+      return layers.addProgram(found.program, request || 'edit', madeBy(found))?.[0] ?? null;
     },
   };
 }

@@ -26,7 +26,8 @@ export const offersSplit = computed(() => {
 /** How the present model was split, and into how many parts; null when it was not. */
 export const splitNow = computed(() => {
   const { model } = document.value;
-  return model?.files.split === undefined ? null : { ...model.files.split, parts: partsOf(model) };
+  if (model?.files.split === undefined) return null;
+  return { ...model.files.split, parts: partsOf(model), isCarved: model.files.carved !== undefined };
 });
 
 export function declineSplit(): void {

@@ -16,8 +16,11 @@ const mostVotes = 3;
 /** Models that refused a picture, by base and name. */
 const blind = new Set<string>();
 
-/** @throws AskError that says why nobody can be asked */
-async function askerOf(model: OpenModel): Promise<Asker> {
+/**
+ * @param votes how often a task that is asked on its own is asked
+ * @throws AskError that says why nobody can be asked
+ */
+export async function askerOf(model: OpenModel, votes = 1): Promise<Asker> {
   if (isDemo.peek()) return recordedAsker(model);
   const target = currentTarget();
   const name = `${target.base} ${target.model}`;
@@ -25,9 +28,9 @@ async function askerOf(model: OpenModel): Promise<Asker> {
   return {
     reader: liveSource(target, { ...options, votes: Math.min(settings.peek().votes, mostVotes) }),
     proposer(_, picture) {
-      if (picture === null) return liveSource(target, { ...options, votes: 1 });
+      if (picture === null) return liveSource(target, { ...options, votes });
       const drawn = target.provider.sees && !blind.has(name) ? picture() : null;
-      return drawn === null ? null : liveSource(target, { ...options, votes: 1, picture: drawn });
+      return drawn === null ? null : liveSource(target, { ...options, votes, picture: drawn });
     },
     isBlind: () => blind.add(name),
   };
@@ -61,7 +64,7 @@ async function recordedAsker({ source, labels }: OpenModel): Promise<Asker> {
   };
 }
 
-const parts = { session, models, askerOf };
+const parts = { session, models, askerOf: (model: OpenModel) => askerOf(model) };
 /** Sliders for the model. */
 export const suggestions = createProposals(parts);
 /** Other readings of one layer's request. */

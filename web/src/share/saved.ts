@@ -1,5 +1,7 @@
 // `parsel/session` v1: the work on a model without the model, for files and links. Untrusted when it is read.
 import * as v from 'valibot';
+import { directions } from '../carve/placing';
+import type { Plane } from '../carve/steps';
 import { shortened } from '../program/cut';
 import { jsonLimits, parseJson } from '../program/json';
 import { layerSchema, limits, programSchema } from '../program/schema';
@@ -22,10 +24,8 @@ const modelSchema = v.strictObject({
 
 /** A part and its name. */
 const renamed: v.GenericSchema<unknown, [string, string]> = v.strictTuple([id, id]);
-const label: v.GenericSchema<unknown, [string, string]> = v.strictTuple([
-  v.pipe(v.string(), v.regex(/^node:\d{1,9}\/\d{1,9}$/)),
-  id,
-]);
+const partKey = v.pipe(v.string(), v.regex(/^node:\d{1,9}\/\d{1,9}$/));
+const label: v.GenericSchema<unknown, [string, string]> = v.strictTuple([partKey, id]);
 const choice: v.GenericSchema<unknown, [string, 'forced' | 'off']> = v.strictTuple([
   v.pipe(v.string(), v.maxBytes(2 * limits.nameLength)),
   v.picklist(['forced', 'off']),
@@ -51,6 +51,26 @@ const splitSchema = v.strictObject({
   fine: v.pipe(v.number(), v.minValue(0), v.maxValue(1)),
 });
 
+const partKeys = v.pipe(v.array(partKey), v.minLength(1), v.maxLength(limits.statements));
+const planeSchema: v.GenericSchema<unknown, Plane> = v.strictTuple([finite, finite, finite, finite]);
+const carveSchema = v.variant('kind', [
+  v.strictObject({ kind: v.literal('join'), parts: partKeys }),
+  v.strictObject({ kind: v.literal('divide'), part: partKey }),
+  v.strictObject({ kind: v.literal('cut'), parts: partKeys, plane: planeSchema }),
+  v.strictObject({
+    kind: v.literal('place'),
+    ...v.entriesFromList(['up', 'front'], v.picklist(directions)),
+    metres: v.pipe(v.number(), v.minValue(1e-6), v.maxValue(1e6)),
+  }),
+]);
+/** Steps depend on those before them: all of them, or none. What faces the front of a model is not above it. */
+const carvedSchema = v.pipe(
+  v.array(carveSchema),
+  v.minLength(1),
+  v.maxLength(limits.layers),
+  v.everyItem((step) => step.kind !== 'place' || step.up.charAt(1) !== step.front.charAt(1)),
+);
+
 const savedSchema = v.strictObject({
   format: v.literal('parsel/session'),
   version: v.literal(1),
@@ -66,6 +86,8 @@ const savedSchema = v.strictObject({
   family: v.exactOptional(familySchema),
   /** How the parts were told apart before all else; the hash is that of the result. */
   split: v.exactOptional(splitSchema),
+  /** Parts that were then joined, split and cut by hand, step by step. */
+  carved: v.exactOptional(carvedSchema),
   view: v.exactOptional(viewSchema),
   ...extrasEntries,
 });
@@ -85,7 +107,7 @@ export function save(document: Document, view?: CameraPose): Saved {
   if (model === null) throw new Error('there is no model to save the work on');
   const { shape, source, labels } = model;
   const family = savedFamily(document);
-  const { split } = model.files;
+  const { split, carved } = model.files;
   return {
     format: 'parsel/session',
     version: 1,
@@ -107,6 +129,7 @@ export function save(document: Document, view?: CameraPose): Saved {
     ...(labels.size > 0 ? { labels: [...labels] } : {}),
     ...(family === undefined ? {} : { family: family as unknown as v.InferOutput<typeof familySchema> }),
     ...(split === undefined ? {} : { split: { by: split.by, fine: split.fine } }),
+    ...(carved === undefined ? {} : { carved: [...carved.steps] as NonNullable<Saved['carved']> }),
     ...extrasOf(document),
     ...(view === undefined ? {} : { view }),
   };
@@ -162,6 +185,8 @@ function salvage(json: Json): Work | null {
   const view = v.safeParse(viewSchema, json['view']);
   const split = v.safeParse(splitSchema, json['split']);
   if (!split.success && json['split'] !== undefined) lost.push('how the parts were told apart');
+  const carved = v.safeParse(carvedSchema, json['carved']);
+  if (!carved.success && json['carved'] !== undefined) lost.push('what was done to the parts by hand');
   if (!view.success && json['view'] !== undefined) lost.push('the view');
   const family = v.safeParse(familySchema, json['family']);
   if (!family.success && json['family'] !== undefined) lost.push('the family');
@@ -187,6 +212,7 @@ function salvage(json: Json): Work | null {
     ...(labels.length > 0 ? { labels } : {}),
     ...(family.success ? { family: family.output } : {}),
     ...(split.success ? { split: split.output } : {}),
+    ...(carved.success ? { carved: carved.output } : {}),
     ...(view.success ? { view: view.output } : {}),
     ...extras,
   };

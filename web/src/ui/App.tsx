@@ -3,6 +3,7 @@ import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
 import type { Insets } from '../scene/camera';
+import { cutting } from '../session/cutting';
 import { readDropped } from '../session/files';
 import { lookOnOpening } from '../session/page_offers';
 import { document } from '../session/session';
@@ -11,6 +12,7 @@ import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
 import { Compass } from './Compass';
 import { Composer } from './Composer';
+import { CutCard, CutHandle } from './CutCard';
 import { Dimensions } from './Dimensions';
 import { ExploreDialog } from './ExploreDialog';
 import { FirstScreen } from './FirstScreen';
@@ -22,6 +24,8 @@ import { LayerCard } from './LayerCard';
 import { ModelDialog } from './ModelDialog';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
+import { PlaceOffer } from './PlaceCard';
+import { PrintDialog } from './PrintDialog';
 import { ProgramDialog } from './ProgramDialog';
 import { ReadingsDialog } from './ReadingsDialog';
 import { RightPanel } from './RightPanel';
@@ -30,6 +34,7 @@ import { SplitOffer } from './SplitCard';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
 import { listenForShortcuts } from './shortcuts';
+import { RulerCard, Tools } from './Tools';
 import { TopBar } from './TopBar';
 import { Tour, TourOffer } from './Tour';
 import { welcome } from './welcome';
@@ -82,7 +87,7 @@ export function App() {
     <div class={`app ${isPhone.value ? 'phone' : ''}`}>
       <StageView insets={insets} pickKind={pickKind} />
       <Compass right={insets.right} />
-      <Handles />
+      {cutting.value === null ? <Handles /> : <CutHandle />}
       <FirstScreen />
       <TopBar />
       <main>
@@ -104,11 +109,15 @@ export function App() {
           class={`centre ${editsOpen.value ? '' : 'low'}`}
           style={{ paddingLeft: `${insets.left + 12}px`, paddingRight: `${insets.right + 12}px` }}
         >
-          <TourOffer />
+          {cutting.value === null && <TourOffer />}
           <SplitOffer />
+          <PlaceOffer />
+          <CutCard />
+          <RulerCard />
           <StatusLine />
           <div class="row">
             <Dimensions />
+            <Tools />
             <ApartSlider />
           </div>
           <Composer picking={pickKind.value !== null} />
@@ -128,6 +137,7 @@ export function App() {
       {dialog.value === 'help' && <HelpDialog />}
       {dialog.value === 'text' && <ProgramDialog />}
       {dialog.value === 'model' && <ModelDialog />}
+      {dialog.value === 'print' && <PrintDialog />}
       {dialog.value === 'explore' && <ExploreDialog />}
       {dialog.value === 'readings' && <ReadingsDialog />}
       {dropping.value && (

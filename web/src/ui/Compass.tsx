@@ -1,7 +1,11 @@
 // Which way the model faces: its four sides on a ring that lies on the ground and turns with the view. Left and right are
-// the object's own, as they are in all words here; each side is a button that looks from there.
+// the object's own, as they are in all words here; each side is a button that looks from there. Below it, whose sides a
+// request means.
 import { useEffect, useRef } from 'preact/hooks';
+import { facing } from '../session/facing';
+import { sideFacing } from '../session/looking';
 import { document } from '../session/session';
+import { SidesSwitch } from './SidesSwitch';
 import { stage } from './view';
 
 const sides = [
@@ -26,6 +30,7 @@ export function Compass({ right }: { right: number }) {
       const element = root.current;
       if (element === null) return;
       const { azimuth, polar } = on.rig.angles;
+      facing.value = sideFacing(azimuth);
       const flat = Math.max(flattest, Math.abs(Math.cos(polar)));
       element.style.setProperty('--flat', String(flat));
       for (const [i, { x, z }] of sides.entries()) {
@@ -56,6 +61,7 @@ export function Compass({ right }: { right: number }) {
           {letter}
         </button>
       ))}
+      <SidesSwitch />
     </section>
   );
 }

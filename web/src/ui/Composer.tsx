@@ -22,6 +22,7 @@ import { dialog } from './actions';
 import { Icon } from './Icon';
 import { ReadingCard } from './ReadingCard';
 import { useRecorded } from './recorded';
+import { SidesLine } from './SidesSwitch';
 import { suggestSliders } from './SuggestPanel';
 
 const maxLength = 1000;
@@ -45,7 +46,7 @@ export function Composer({ picking }: { picking: boolean }) {
   const isAsking = state.kind === 'asking';
   useMentions(picking, isFocused);
   if (document.value.model === null) return null;
-  const name = isDemo.value ? 'Recorded answers' : choiceOf(settings.value.provider).model || 'No model chosen';
+  const name = isDemo.value ? 'Recorded answers' : choiceOf(settings.value.provider).model;
 
   const send = () => void sendRequest();
   const onKeyDown = (event: KeyboardEvent) => {
@@ -127,6 +128,7 @@ export function Composer({ picking }: { picking: boolean }) {
           <Icon name="send" />
         </button>
       </form>
+      {!isAsking && <SidesLine />}
       <Below />
     </section>
   );

@@ -7,6 +7,7 @@ import type { OpenModel } from '../session/document';
 import { type FamilyState, settingOf, shapeIds } from '../session/family_state';
 import { interrupt } from '../session/play';
 import { family as actions, document, setHidden, step, task } from '../session/session';
+import { FamilyKinds, SuggestKinds } from './FamilyKinds';
 import { FamilyShared } from './FamilyShared';
 import { FamilySlider } from './FamilySlider';
 import { exportScad, exportSets } from './family_export';
@@ -25,6 +26,7 @@ export function FamilyPanel() {
   return (
     <div class="family">
       <Strip family={family} model={model} />
+      <FamilyKinds family={family} />
       <Optional family={family} ids={ids} />
       <section aria-label="Sliders">
         <h3>
@@ -108,6 +110,7 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
           </li>
         ))}
       </ul>
+      <SuggestKinds />
       <Keep family={family} />
     </section>
   );

@@ -11,6 +11,7 @@ const keys: readonly (readonly [keys: string, what: string])[] = [
   ['Shift+click, Shift+drag', 'select several parts; Ctrl+A selects all'],
   ['H · I · Alt+H', 'hide what is selected, show only that, show all'],
   ['Arrows in the list', 'from part to part; with Shift they select; right and left unfold and fold a row'],
+  ['S · R', 'stop at whole centimetres while dragging; a ruler between two points'],
   ['E', 'parts apart, parts together'],
   ['Escape', 'let go of the selection'],
   ['Space', 'animate the last edit'],

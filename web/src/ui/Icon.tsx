@@ -30,6 +30,8 @@ const paths = {
   send: 'M10 16V4m0 0L5 9m5-5 5 5',
   settings: 'M3 6h8M15 6h2M3 14h2M9 14h8M13 4v4M7 12v4',
   several: 'M3 3h9v9H3zM8 15v2h9V8h-2m-10-.500 2 2 3.500-4',
+  snap: 'M3 13h14M3 13V9M6.500 13v-2.500M10 13V9M13.500 13v-2.500M17 13V9',
+  ruler: 'm3 13 10-10 4 4L7 17zM6 10l1.500 1.500M9 7l1.500 1.500M12 4l1.500 1.500',
   fit: 'M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4',
 } as const;
 

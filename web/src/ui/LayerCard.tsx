@@ -97,6 +97,7 @@ function Body({ entry, plain, unfit }: { entry: LayerEntry; plain: boolean; unfi
         </p>
       )}
       {!enabled && <p class="quiet">Switched off</p>}
+      {!plain && entry.seen && <p class="quiet">Its sides were said looking at its {entry.seen}</p>}
       {!plain && unfit === null && <Status entry={entry} />}
       {!plain && unfit === null && <OtherCount entry={entry} />}
       {!plain && <Statements statements={layer.statements} />}

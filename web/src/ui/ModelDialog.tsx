@@ -2,13 +2,15 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useId } from 'preact/hooks';
 import { clearReplies } from '../llm/cache';
+import { defaultModel, lookedUp } from '../llm/default_models';
 import { complete, listModels } from '../llm/http';
 import { forgetKey, type Keeping, keepKey, keyFor } from '../llm/keys';
 import { isAllowed, type Provider, providerOf, providers } from '../llm/providers';
-import { choiceOf, choose, currentTarget, isDemo, maxVotes, recorded, settings } from '../llm/settings';
+import { choiceOf, choose, currentTarget, enteredOf, isDemo, maxVotes, recorded, settings } from '../llm/settings';
 import { sentence } from '../session/tasks';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
+import { SoFar, WhatIsSent } from './ModelCost';
 
 const keepings: readonly { id: Keeping; label: string }[] = [
   { id: 'memory', label: 'Only until this page closes' },
@@ -60,10 +62,11 @@ export function ModelDialog() {
 }
 
 function ProviderFields({ provider }: { provider: Provider }) {
-  const choice = choiceOf(provider.id);
+  const choice = enteredOf(provider.id);
   const known = useSignal<readonly string[]>([]);
   const modelList = useId();
   const hint = useId();
+  const modelHint = useId();
   const change = (next: Parameters<typeof choose>[1]) => choose(provider.id, next);
   const allowed = isAllowed(choice.base);
   return (
@@ -101,10 +104,16 @@ function ProviderFields({ provider }: { provider: Provider }) {
           list={modelList}
           spellcheck={false}
           autocomplete="off"
-          placeholder="name, as the provider writes it"
+          placeholder={defaultModel(provider.id) || 'name, as the provider writes it'}
+          aria-describedby={modelHint}
           onChange={(event) => change({ model: event.currentTarget.value.trim() })}
         />
       </label>
+      <p class="quiet" id={modelHint}>
+        {choice.model === ''
+          ? `Left empty: ${defaultModel(provider.id)}, a sensible one when it was looked up (${day(lookedUp)}). Type any other, or list them.`
+          : `Emptied, it is ${defaultModel(provider.id)} again.`}
+      </p>
       <datalist id={modelList}>
         {known.value.map((name) => (
           <option key={name} value={name} />
@@ -126,6 +135,8 @@ function ProviderFields({ provider }: { provider: Provider }) {
         />
       </label>
       <p class="quiet">They are put to the vote: more cost more and err less. Five is a good number.</p>
+      <SoFar />
+      <WhatIsSent host={URL.canParse(choice.base) ? new URL(choice.base).host : provider.title} sees={provider.sees} />
       <details>
         <summary>Prices and kept answers</summary>
         <p class="quiet">
@@ -153,6 +164,9 @@ function ProviderFields({ provider }: { provider: Provider }) {
     </>
   );
 }
+
+const day = (date: string): string =>
+  new Date(`${date}T12:00`).toLocaleDateString('en', { day: 'numeric', month: 'long', year: 'numeric' });
 
 function KeyFields({ provider, base }: { provider: Provider; base: string }) {
   const { key, keeping } = keyFor(base);

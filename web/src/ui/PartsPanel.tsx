@@ -6,7 +6,9 @@ import { nameOf, partKey } from '../session/document';
 import { relabel } from '../session/open';
 import { document, pointedAt, select, selected, selection, showAll } from '../session/session';
 import { Found } from './Found';
+import { NamesCard } from './NamesCard';
 import { PartsList } from './PartsList';
+import { PlaceCard } from './PlaceCard';
 import { SelectionBar } from './SelectionBar';
 import { SplitCard } from './SplitCard';
 import { whyPart } from './why';
@@ -26,6 +28,8 @@ export function PartsPanel({ onEdit }: { onEdit: () => void }) {
         </button>
       )}
       <SplitCard />
+      <PlaceCard />
+      <NamesCard />
       <SelectionBar shape={model.shape} onEdit={onEdit} />
       {selected.value.length < 2 && <SelectedPart />}
     </>

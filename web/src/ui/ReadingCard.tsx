@@ -21,6 +21,7 @@ import { dialog } from './actions';
 import { Hints } from './HandPanel';
 import { Icon } from './Icon';
 import { SeedFields } from './SeedFields';
+import { SidesRead } from './SidesSwitch';
 import { choiceOf, isWhole, seedOf } from './seed_choice';
 import { relationWords, statementWords } from './words';
 
@@ -62,6 +63,7 @@ export function ReadingCard({ state }: { state: Understood }) {
           <Icon name="close" />
         </button>
       </header>
+      <SidesRead state={state} />
       {state.plain !== null && <Plainly state={state} />}
       {note && <p class="quiet note-line">{note}</p>}
       {open.value && <Corrections state={state} />}

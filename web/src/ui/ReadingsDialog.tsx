@@ -6,8 +6,9 @@ import type { Layer, Shape, Statement } from '../program/types';
 import type { State } from '../scene/explode';
 import type { Tint } from '../scene/model_view';
 import { copyOf, type Picture } from '../scene/pictures';
-import type { LayerEntry, OpenModel } from '../session/document';
+import { type LayerEntry, type OpenModel, partNames } from '../session/document';
 import { titleOf } from '../session/layers';
+import { saidFrom } from '../session/looking';
 import { playOnce, prefersReducedMotion } from '../session/play';
 import { isClean, type Proposal } from '../session/proposals';
 import { document, exchangeLayer } from '../session/session';
@@ -22,10 +23,11 @@ import { theme } from './theme';
 /** Key of the layer that the dialog is about. */
 const about = signal<number | null>(null);
 
-export function showReadings({ key, layer }: LayerEntry): void {
+export function showReadings({ key, layer, seen }: LayerEntry): void {
   about.value = key;
   dialog.value = 'readings';
-  void otherReadings.start({ task: 'request_variations', request: layer.request }, paintNumbered);
+  const request = saidFrom(layer.request, seen ?? null, partNames(document.peek())).own;
+  void otherReadings.start({ task: 'request_variations', request }, paintNumbered);
 }
 
 /** Share of the way to the ends: −1 … 1. */

@@ -1,7 +1,10 @@
 // What can be done with the parts that are selected.
 import type { Shape } from '../program/types';
+import { carveModel, keysOf, whyUncarvable } from '../session/carving';
+import { models } from '../session/core';
+import { beginCut, cutting } from '../session/cutting';
 import { nameOf } from '../session/document';
-import { document, isolate, select, selectAll, selected, setHidden } from '../session/session';
+import { document, isolate, select, selectAll, selected, setHidden, task } from '../session/session';
 import { alike, realParts } from '../session/several';
 import { listWords } from './words';
 
@@ -36,6 +39,7 @@ export function SelectionBar({ shape, onEdit }: { shape: Shape; onEdit: () => vo
         <button type="button" class="chip-button" aria-pressed={isAlone} title="I" onClick={() => isolate(ids)}>
           {isAlone ? 'Show all' : real.length > 1 ? 'Show only these' : 'Show only this'}
         </button>
+        {real.length > 0 && <ByHand shape={shape} ids={ids} real={real} />}
         {ids.length > 1 && (
           <>
             <button
@@ -56,5 +60,49 @@ export function SelectionBar({ shape, onEdit }: { shape: Shape; onEdit: () => vo
         )}
       </div>
     </section>
+  );
+}
+
+/** What can be made of the parts themselves: one of several, several of one. */
+function ByHand({ shape, ids, real }: { shape: Shape; ids: readonly string[]; real: readonly string[] }) {
+  const why = whyUncarvable(document.value);
+  const isOff = why !== null || models.value === null || task.value !== null || cutting.value !== null;
+  const [key = ''] = keysOf(shape, real);
+  const carve = (step: Parameters<typeof carveModel>[1]) => {
+    if (models.value !== null) void carveModel(models.value, step);
+  };
+  return (
+    <>
+      {real.length > 1 ? (
+        <button
+          type="button"
+          class="chip-button"
+          disabled={isOff}
+          title={why ?? 'Makes one part of them, if they are of one material'}
+          onClick={() => carve({ kind: 'join', parts: keysOf(shape, ids) })}
+        >
+          Join to one part
+        </button>
+      ) : (
+        <button
+          type="button"
+          class="chip-button"
+          disabled={isOff}
+          title={why ?? 'Pieces of it that do not hang together become parts of their own'}
+          onClick={() => carve({ kind: 'divide', part: key })}
+        >
+          Split into pieces
+        </button>
+      )}
+      <button
+        type="button"
+        class="chip-button"
+        disabled={isOff}
+        title={why ?? 'Cuts by a plane that you place'}
+        onClick={() => beginCut(shape)}
+      >
+        Cut…
+      </button>
+    </>
   );
 }

@@ -62,8 +62,14 @@ export function SplitCard() {
         max={1}
         step={0.05}
         value={dragged.value ?? now.fine}
-        disabled={models.value === null || task.value !== null || isEdited}
-        title={isEdited ? 'Take the edits back to split the model anew' : 'Left: small pieces go to what they sit on'}
+        disabled={models.value === null || task.value !== null || isEdited || now.isCarved}
+        title={
+          now.isCarved
+            ? 'Undo what was changed by hand to split the model anew'
+            : isEdited
+              ? 'Take the edits back to split the model anew'
+              : 'Left: small pieces go to what they sit on'
+        }
         aria-valuetext={fineWords(dragged.value ?? now.fine)}
         onInput={(event) => {
           dragged.value = event.currentTarget.valueAsNumber;

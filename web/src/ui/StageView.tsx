@@ -3,6 +3,7 @@ import type { Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { LocalTriple, Sign, Vec3 } from '../program/types';
 import type { Insets } from '../scene/camera';
+import { ruler, setPoint } from '../session/ruler';
 import { document, hovered, select, selectAlso, selected, selection } from '../session/session';
 import { BoxSelect } from './BoxSelect';
 import { brightness, mountStage, several, stage } from './view';
@@ -61,6 +62,10 @@ export function StageView({ insets, pickKind }: StageViewProps) {
           pressed.current = null;
           if (start === null || Math.hypot(event.clientX - start.x, event.clientY - start.y) > dragThreshold) return;
           const hit = partAt(event.clientX, event.clientY);
+          if (ruler.peek() !== null) {
+            if (hit !== null) setPoint(hit.id, hit.local);
+            return;
+          }
           const kind = pickKind.peek() ?? 'whole';
           const adds = event.shiftKey || event.ctrlKey || event.metaKey || several.peek();
           if (adds && hit !== null) selectAlso(hit.id);

@@ -1,4 +1,5 @@
 // Model, history, sharing, export, help, theme.
+import { isPlaced } from '../session/placing';
 import { document, redo, redoLabel, selected, undo, undoLabel } from '../session/session';
 import {
   dialog,
@@ -22,12 +23,16 @@ function exportItems(): MenuItem[] {
   const noLayer = none || !layers.some(({ enabled }) => enabled);
   return [
     { label: 'Edited model', hint: '.glb', disabled: none, act: () => void exportModel('all') },
+    ...(model !== null && isPlaced(model.files)
+      ? [{ label: 'Edited model as it stands here', hint: '.glb', act: () => void exportModel('all', true) }]
+      : []),
     {
       label: selected.value.length > 1 ? 'Selected parts only' : 'Selected part only',
       hint: '.glb',
       disabled: none || selected.value.length === 0,
       act: () => void exportModel('selected'),
     },
+    { label: 'For printing…', hint: '.stl .3mf', disabled: none, act: () => (dialog.value = 'print') },
     { label: 'Animated by the last slider', hint: '.glb', disabled: noLayer, act: () => void exportModel('animated') },
     { label: 'Model with sliders', hint: 'one .glb', disabled: noLayer, act: () => void exportOneFile() },
     { label: 'Sliders alone', hint: '.sliders.json', disabled: noLayer, act: () => void exportSliders() },

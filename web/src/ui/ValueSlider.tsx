@@ -12,6 +12,7 @@ import type { ModelCore } from '../session/model_core';
 import { interrupt } from '../session/play';
 import { readLayer, solveLayer } from '../session/reading';
 import { compiled, document, settle, setValue, slide, sliderValue, step } from '../session/session';
+import { snapped } from '../session/snapping';
 import { Closed, stopWords } from './StackVerdict';
 import { reasonOfEnd } from './slider_end';
 import { cleanShares, Ends } from './TrackEnds';
@@ -29,6 +30,12 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
   const end = reasonOfEnd(entry, value);
   const stopped = entry.enabled ? stopWords(entry) : null;
 
+  /** The next whole length where lengths snap, else one step of the slider. */
+  const stepBy = (sign: number) => {
+    const now = sliderValue(entry);
+    const whole = snapped(entry, now, sign);
+    setValue(entry.key, whole === now ? now + sign * unit : whole, true);
+  };
   const onKeyDown = (event: KeyboardEvent) => {
     const sign = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
     if (sign === undefined || !(event.shiftKey || event.altKey)) return;
@@ -60,7 +67,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
           aria-valuetext={text}
           title="Double-click resets"
           onPointerDown={interrupt}
-          onInput={(event) => slide(entry.key, event.currentTarget.valueAsNumber)}
+          onInput={(event) => slide(entry.key, snapped(entry, event.currentTarget.valueAsNumber))}
           onChange={() => settle(entry.key)}
           onDblClick={() => setValue(entry.key, 0)}
           onKeyDown={(event) => {
@@ -69,7 +76,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
               // step="any" gives the arrows a step of 1 in some browsers
               event.preventDefault();
               const sign = event.key === 'ArrowRight' || event.key === 'ArrowUp' ? 1 : -1;
-              setValue(entry.key, sliderValue(entry) + sign * unit, true);
+              stepBy(sign);
             } else onKeyDown(event);
           }}
         />

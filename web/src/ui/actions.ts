@@ -1,20 +1,24 @@
 // What buttons, keys and drops have in common: opening files, exporting, sharing.
 import { type ReadonlySignal, signal } from '@preact/signals';
 import { models } from '../session/core';
+import { isCut } from '../session/cuts';
 import { programOf } from '../session/document';
 import { editedName, plainName } from '../session/download_names';
 import { activeLayers } from '../session/evaluation';
 import { absentParts } from '../session/family_state';
 import { type FileSet, hasModel, sessionOf, unpacked } from '../session/files';
-import type { ExportOptions } from '../session/model_core';
+import type { Exported, ExportOptions } from '../session/model_core';
 import { oneFile, slidersOfWork } from '../session/one_file';
 import { openFiles, openSaved } from '../session/open';
-import { document, run, say, selected } from '../session/session';
+import { asItsFile } from '../session/placing';
+import { document, family as families, run, say, selected } from '../session/session';
+import { cutExport } from '../session/solid';
+import type { RunOptions } from '../session/tasks';
 import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
 import { stage } from './view';
 
-export type DialogName = 'explore' | 'readings' | 'open' | 'share' | 'help' | 'text' | 'model';
+export type DialogName = 'explore' | 'readings' | 'open' | 'share' | 'help' | 'text' | 'model' | 'print';
 export const dialog = signal<DialogName | null>(null);
 /** Key of the layer that the text dialog is about; null for text from elsewhere. */
 const textKey = signal<number | null>(null);
@@ -51,7 +55,7 @@ export function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
 
-const modelName = () => document.peek().model?.shape.name ?? '';
+export const modelName = () => document.peek().model?.shape.name ?? '';
 const fileName = (suffix: string) => `${plainName(modelName())}${suffix}`;
 
 const jsonBlob = (value: unknown) => new Blob([JSON.stringify(value, null, 1)], { type: 'application/json' });
@@ -72,6 +76,8 @@ export async function exportOneFile(): Promise<void> {
   const glb = await run('Writing the file', () => oneFile(core, document.peek(), stage.peek()?.rig.pose));
   if (glb === null) return;
   download(`${editedName(modelName(), 'sliders')}.glb`, new Blob([glb as BlobPart], { type: 'model/gltf-binary' }));
+  const { model } = document.peek();
+  if (model !== null && isCut(model.files)) say(uncut);
 }
 
 /** The sliders alone, for a page that has the model. */
@@ -85,19 +91,37 @@ export async function exportScreenshot(): Promise<void> {
   if (picture) download(fileName('.png'), picture);
 }
 
-export async function exportModel(kind: 'all' | 'selected' | 'animated'): Promise<void> {
+/** The file of the model as it is edited and cut, or of some of its parts; null without a model. */
+export async function editedFile(kind: 'all' | 'selected' | 'animated', options: RunOptions): Promise<Exported | null> {
   const core = models.peek();
   const { model } = document.peek();
-  if (core === null || model === null) return;
+  if (core === null || model === null) return null;
   const program = programOf(model.shape, activeLayers(document.peek()));
   const absent = absentParts(document.peek());
   const present = model.shape.parts.flatMap(({ id, virtual }) => (virtual || absent.has(id) ? [] : [id]));
-  const options: ExportOptions = {
+  const how: ExportOptions = {
     ...(absent.size > 0 ? { only: present } : {}),
     ...(kind === 'animated' ? { animate: program.layers.at(-1)?.parameter.name ?? '' } : {}),
     ...(kind === 'selected' ? { only: [...selected.peek()] } : {}),
   };
-  const exported = await run('Writing the file', () => core.apply(model, program, options));
+  const { glb, warnings } = await core.apply(model, program, how);
+  options.signal.throwIfAborted();
+  if (kind === 'animated') return { glb, warnings: isCut(model.files) ? [...warnings, uncut] : warnings };
+  const { family } = document.peek();
+  const setting = family === undefined ? null : families.settingNow(family);
+  return { glb: await cutExport(glb, document.peek(), setting, options), warnings };
+}
+
+const uncut = 'What is cut changes with the slider: in this file its parts are whole.';
+
+/** @param asItStands turned and sized as it is shown; else as its file was */
+export async function exportModel(kind: 'all' | 'selected' | 'animated', asItStands = false): Promise<void> {
+  const { model } = document.peek();
+  const exported = await run('Writing the file', async (options) => {
+    const made = await editedFile(kind, options);
+    if (made === null || model === null || asItStands) return made;
+    return { ...made, glb: await asItsFile(model.files, made.glb, options) };
+  });
   if (exported === null) return;
   download(
     `${editedName(modelName())}${{ all: '', selected: '.part', animated: '.animated' }[kind]}.glb`,

@@ -1,8 +1,10 @@
 // Keys of the whole page, after Blender's where it has them. Fields keep their own keys.
 import { playing, playOn, stop } from '../session/play';
 import { cancelPull, pull } from '../session/pull';
+import { ruler, toggleRuler } from '../session/ruler';
 import { document, isolate, redo, select, selectAll, selected, setHidden, showAll, undo } from '../session/session';
 import { realParts } from '../session/several';
+import { snap, snapping } from '../session/snapping';
 import { dialog, saveSession } from './actions';
 import { focusView, stage, toggleApart } from './view';
 
@@ -53,6 +55,14 @@ function onPlain(event: KeyboardEvent): boolean {
     case '7':
       stage.peek()?.rig.look('top', true);
       return true;
+    case 's':
+    case 'S':
+      snap(!snapping.peek());
+      return true;
+    case 'r':
+    case 'R':
+      toggleRuler();
+      return true;
     case 'h':
     case 'H': {
       if (shape === undefined || ids.length === 0) return false;
@@ -75,6 +85,7 @@ function onPlain(event: KeyboardEvent): boolean {
     case 'Escape':
       if (pull.peek() !== null) cancelPull();
       else if (playing.peek() !== null) stop();
+      else if (ruler.peek() !== null) toggleRuler();
       else select(null);
       return true;
     case ' ': {

@@ -12,6 +12,7 @@ import { prefersReducedMotion } from '../session/play';
 import { pull } from '../session/pull';
 import { compiled, document, hovered, pointedAt, say, selected, selection, step } from '../session/session';
 import { realParts } from '../session/several';
+import { followCuts } from './cut_view';
 import { theme } from './theme';
 
 export const stage = signal<Stage | null>(null);
@@ -77,6 +78,7 @@ export function mountStage(canvas: HTMLCanvasElement): () => void {
       for (const [i, { id }] of (model?.shape.parts ?? []).entries()) actor?.view.setHidden(i, hidden.has(id));
       created.invalidate();
     }),
+    followCuts(created, { shown, actorOf: () => actor, evaluatorOf: currentEvaluator }),
     effect(() => created.setApart(apart.value)),
     effect(() => light(created)),
   ];

@@ -12,7 +12,7 @@ export interface ConvertRequest {
   readonly limit: number;
 }
 
-export type ConvertReply = Converted | { readonly error: string };
+type ConvertReply = Converted | { readonly error: string };
 
 self.onmessage = async ({ data }: MessageEvent<ConvertRequest>) => {
   try {

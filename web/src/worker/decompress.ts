@@ -4,6 +4,7 @@
 import { type JSONDocument, Logger, Verbosity, WebIO } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { MeshoptDecoder } from 'meshoptimizer/decoder';
+import { readJson } from '../formats/read_gltf';
 import type { ModelFiles } from '../scene/load';
 
 const compressions = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression'];
@@ -46,16 +47,8 @@ export async function decompress(files: ModelFiles, dracoModule: () => Promise<A
   return { glb: await io.writeBinary(document), lost };
 }
 
-async function read({ main, external }: ModelFiles, io: WebIO): Promise<JSONDocument> {
-  const bytes = new Uint8Array(main); // gltf-transform wants a buffer of its own
-  const binary = bytes[0] === 0x67 && bytes[1] === 0x6c; // "gl", else "{"
-  const { json, resources }: JSONDocument = binary
-    ? await io.binaryToJSON(bytes)
-    : { json: JSON.parse(new TextDecoder().decode(bytes)), resources: {} };
-  for (const { uri } of [...(json.buffers ?? []), ...(json.images ?? [])]) {
-    const found = uri === undefined ? undefined : external.get(decodeURIComponent(uri));
-    if (uri !== undefined && found !== undefined) resources[uri] = new Uint8Array(found);
-  }
+async function read(files: ModelFiles, io: WebIO): Promise<JSONDocument> {
+  const { json, resources } = await readJson(files, io);
   // The Khronos extension is the vendor's under another name: same fields, and the decoder reads both bit streams.
   const text = JSON.stringify(json).replaceAll('"KHR_meshopt_compression"', '"EXT_meshopt_compression"');
   return { json: JSON.parse(text), resources };

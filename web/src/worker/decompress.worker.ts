@@ -6,7 +6,7 @@ import { holdWatchedLock } from './watch';
 
 holdWatchedLock();
 
-export type DecompressReply = Decompressed | { readonly error: string };
+type DecompressReply = Decompressed | { readonly error: string };
 
 self.onmessage = async ({ data }: MessageEvent<ModelFiles>) => {
   try {

@@ -116,6 +116,54 @@ export const familyMethods = {
       sets: v.looseObject({ parameterSets: v.record(v.string(), v.record(v.string(), v.string())) }),
     }),
   },
+  /** What a language model is asked about a program: which kinds of it there are, or the numbers of one `kind`. */
+  cad_prompt: {
+    parameters: v.strictObject({
+      cad: v.unknown(),
+      task: v.picklist(['kinds', 'variation']),
+      /** Empty for kinds. */
+      kind: v.string(),
+      /** How many kinds; 0: as many as usual. */
+      count: v.number(),
+    }),
+    result: v.strictObject({
+      prompt: v.strictObject({ task: v.string(), text: v.string(), hash: v.string(), version: v.string() }),
+      words: v.string(),
+      schema: v.looseObject({ type: v.optional(v.string()) }),
+    }),
+  },
+  /** What the replies mean: the kinds, those first that most name; or the numbers of one, in which most agree. */
+  read_cad_replies: {
+    parameters: v.strictObject({
+      cad: v.unknown(),
+      task: v.picklist(['kinds', 'variation']),
+      kind: v.string(),
+      texts: v.array(v.string()),
+    }),
+    result: v.looseObject({
+      kinds: v.optional(
+        v.array(
+          v.strictObject({ name: v.string(), words: v.string(), absent: v.array(v.string()), votes: v.number() }),
+        ),
+      ),
+      /** What was named and cannot be drawn, with a clause why. */
+      dropped: v.optional(v.array(v.strictObject({ name: v.string(), reason: v.string() }))),
+      /** `parsel/variations` v1 of one. */
+      variation: v.optional(
+        v.looseObject({ variations: v.array(v.looseObject({ name: v.string(), absent: v.array(v.string()) })) }),
+      ),
+      /** Of the program's constraints between parts that the kind has: those that most and that all replies hold. */
+      agreed: v.optional(v.number()),
+      unanimous: v.optional(v.number()),
+      constraints: v.optional(v.number()),
+      refused: v.array(
+        v.strictObject({
+          vote: v.number(),
+          error: v.strictObject({ stage: v.string(), place: v.string(), cause: v.string(), fix: v.string() }),
+        }),
+      ),
+    }),
+  },
   /** The gallery's CAD programs: the text and the variations of each as buffers. */
   cad_gallery: {
     parameters: v.strictObject({}),

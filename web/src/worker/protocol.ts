@@ -61,6 +61,18 @@ const inferenceSchema = v.looseObject({
       dropped: v.array(v.strictObject({ request: v.string(), reason: v.string() })),
     }),
   ),
+  /** What the parts are called, counted; `front`: the side of the model that is its front. */
+  names: v.optional(
+    v.strictObject({
+      category: v.string(),
+      category_votes: v.number(),
+      front: v.picklist(['', '+z', '-z', '+x', '-x']),
+      front_votes: v.number(),
+      of: v.number(),
+      /** By id of a part, or of the virtual part that stands for its instances; `label` is empty where nobody names it. */
+      parts: v.array(v.strictObject({ part: v.string(), label: v.string(), votes: v.number() })),
+    }),
+  ),
   refused: v.array(
     v.strictObject({ task: taskSchema, relation: v.nullable(v.string()), vote: v.number(), error: errorSchema }),
   ),
@@ -261,7 +273,7 @@ export const methodSchemas = {
     }),
   },
   /**
-   * The prompt of a task that proposes requests. `request` is empty for one about the model alone; `count` 0 is as many as
+   * The prompt of a task that is asked on its own. `request` is empty for one about the model alone; `count` 0 is as many as
    * the task says; `picture`: one goes along, with numbers on its parts: number i is `numbered[i - 1]`.
    */
   proposal_prompt: {

@@ -1,0 +1,126 @@
+// The edited model for printers: one solid, its size and volume in the dialog, files that open in our own readers; and what
+// is no solid, named.
+import { readFile } from 'node:fs/promises';
+import type { Page } from 'playwright-core';
+import { describe, expect, it } from 'vitest';
+import { convert } from '../../web/src/formats/convert';
+import type { Format } from '../../web/src/formats/model';
+import { fileLimits } from '../../web/src/session/files';
+import { partsOf } from '../../web/src/solid/parts';
+import { boundsOf, volumeOf, weld } from '../../web/src/solid/weld';
+import type { DebugHandle } from '../../web/src/ui/debug';
+import { serious } from './axe';
+import { program, stool, stoolGltf, toGlb } from './fixture';
+import { openModel, outputFolder, useSite } from './harness';
+
+declare const parsel: DebugHandle;
+
+const site = useSite();
+
+async function openDialog(page: Page) {
+  await page.getByRole('button', { name: 'Export' }).click();
+  await page.getByRole('menuitem', { name: 'For printing' }).click();
+  return page.getByRole('dialog', { name: 'For printing' });
+}
+
+async function save(page: Page, format: Format) {
+  const button = page.getByRole('button', { name: `Save ${format.toUpperCase()}` });
+  const [event] = await Promise.all([page.waitForEvent('download'), button.click()]);
+  expect(event.suggestedFilename()).toBe(`stool-edited.${format}`);
+  const path = `${outputFolder}/${event.suggestedFilename()}`;
+  await event.saveAs(path);
+  const source = { path, main: new Uint8Array(await readFile(path)), external: new Map() };
+  const { glb } = await convert(source, format, fileLimits.bytes);
+  const parts = await partsOf(glb, new Map());
+  expect(parts).toHaveLength(1);
+  return weld(parts[0] as (typeof parts)[number], 1e-6);
+}
+
+const fact = async (page: Page, name: string) =>
+  page.locator('.facts dt', { hasText: name }).locator('xpath=following-sibling::dd[1]').textContent();
+
+describe('a model for printing', () => {
+  it('is one closed solid of the size and volume that the dialog says, as it is edited', async () => {
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
+    const fetched: string[] = [];
+    page.on('request', (request) => fetched.push(request.url()));
+    const shape = await page.evaluate(() => parsel.document().model?.shape);
+    if (!shape) throw new Error('no model');
+    const edits = program(shape);
+    await page.evaluate(
+      (all) => {
+        const keys = parsel.addProgram(all, 'test') ?? [];
+        parsel.slide(keys[0] ?? 0, 0.4);
+      },
+      { ...edits, layers: edits.layers.slice(0, 1) },
+    );
+    await page.getByRole('slider').first().fill('0.4');
+    expect(fetched.filter((url) => /manifold/.test(url))).toEqual([]);
+
+    const dialog = await openDialog(page);
+    await dialog.getByRole('button', { name: 'Save STL' }).and(page.locator(':enabled')).waitFor();
+    expect(fetched.filter((url) => /manifold[^/]*\.wasm/.test(url))).toHaveLength(1);
+    await page.screenshot({ path: `${outputFolder}/print.png` });
+    expect(await serious(page)).toEqual([]);
+    const corners = await page.evaluate(() => parsel.corners());
+    const { scale } = shape.frame;
+    const { low, high } = boundsOf(corners);
+    const size = [0, 2, 1].map((axis) => 1000 * scale * ((high[axis] ?? 0) - (low[axis] ?? 0)));
+    expect((await fact(page, 'Size'))?.replace(' mm', '').split(' × ').map(Number)).toEqual(
+      size.map((x) => Math.round(x)),
+    );
+    const said = Number.parseFloat((await fact(page, 'Volume'))?.replace(',', '') ?? '');
+
+    for (const format of ['stl', '3mf'] as const) {
+      const mesh = await save(page, format);
+      expect(mesh.open).toBe(0);
+      expect(volumeOf(mesh) / 1000 / said).toBeCloseTo(1, 3);
+      const bounds = boundsOf(mesh.positions);
+      for (const [axis, x] of bounds.high.entries())
+        expect(x - (bounds.low[axis] ?? 0)).toBeCloseTo(size[axis] ?? 0, 1);
+    }
+
+    await page.getByLabel('Longest side').fill('100');
+    await page.getByLabel('Longest side').press('Tab');
+    expect(await fact(page, 'Size')).toMatch(/100 mm$|100 × /);
+    const small = await save(page, 'stl');
+    const bounds = boundsOf(small.positions);
+    expect(Math.max(...bounds.high.map((x, i) => x - (bounds.low[i] ?? 0)))).toBeCloseTo(100, 3);
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+
+  it.each([
+    ['light', { width: 1440, height: 900 }],
+    ['dark', { width: 390, height: 844 }],
+  ] as const)(
+    'whose part is open is named, nothing is saved, and the rest can be: %s',
+    async (colorScheme, viewport) => {
+      const { json, binary } = stoolGltf();
+      const accessors = json['accessors'] as { count: number }[];
+      const [{ indices }] = (json['meshes'] as { primitives: [{ indices: number }] }[])[2]?.primitives ?? [
+        { indices: 0 },
+      ];
+      (accessors[indices] as { count: number }).count -= 3; // a triangle less for every slat
+      const { page, complaints } = await openModel(site.browser, site.url, toGlb({ json, binary }), {
+        colorScheme,
+        viewport,
+      });
+      const dialog = await openDialog(page);
+      await dialog
+        .getByText(/slat.* is open at 3 edges\./)
+        .first()
+        .waitFor();
+      expect(await dialog.getByRole('button', { name: 'Save STL' }).isDisabled()).toBe(true);
+      expect(await serious(page)).toEqual([]);
+      await page.screenshot({ path: `${outputFolder}/print-open-${colorScheme}.png` });
+      await dialog.getByRole('button', { name: 'Leave them out' }).click();
+      await dialog.getByText('Left out').waitFor();
+      expect((await save(page, '3mf')).open).toBe(0);
+      await page.keyboard.press('Escape');
+      await dialog.waitFor({ state: 'detached' });
+      expect(complaints).toEqual([]);
+      await page.context().close();
+    },
+  );
+});

@@ -1,0 +1,57 @@
+// The gallery's CAD programs, opened in a session as the page does, with the core itself behind it.
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import * as v from 'valibot';
+import type { Shape } from '../../web/src/program/types';
+import type { CadSource, ModelFiles } from '../../web/src/scene/load';
+import { emptyDocument, noLabels } from '../../web/src/session/document';
+import { familyOf, withProgramRead } from '../../web/src/session/family';
+import { type FamilyState, withFamily } from '../../web/src/session/family_state';
+import type { ModelCore } from '../../web/src/session/model_core';
+import { createSession } from '../../web/src/session/session';
+import { methodSchemas } from '../../web/src/worker/protocol';
+import { fakeCore } from './fake_core';
+import type { LoadedModule } from './module';
+
+export const programText = (name: string) =>
+  new Uint8Array(readFileSync(fileURLToPath(new URL(`../../core/gallery/programs/${name}`, import.meta.url))));
+export const options = { signal: new AbortController().signal, onProgress: () => {} };
+
+type CadMethod = 'open_cad' | 'find_family' | 'family_text' | 'cad_prompt' | 'read_cad_replies';
+
+export function cadCore(module: LoadedModule): ModelCore {
+  const call = <M extends CadMethod>(method: M, parameters: unknown, given: Uint8Array[] = []) => {
+    const reply = module.invoke(method, JSON.stringify(parameters), given, null);
+    const message = JSON.parse(reply.json) as { result?: unknown; error?: { place: string; cause: string } };
+    if (message.error) throw new Error(`${message.error.place}: ${message.error.cause}`);
+    return { result: v.parse(methodSchemas[method].result, message.result) as never, buffers: reply.buffers };
+  };
+  return {
+    ...fakeCore(),
+    async readCad(name, program) {
+      const { result, buffers } = call('open_cad', { name }, [program]);
+      return { read: result, glb: buffers[0] as Uint8Array };
+    },
+    async findFamily(about) {
+      const { result, buffers } = call('find_family', about);
+      return { found: result, pictures: buffers };
+    },
+    familyText: async (about) => call('family_text', about).result,
+    cadPrompt: async (about) => call('cad_prompt', about).result,
+    readCadReplies: async (about) => call('read_cad_replies', about).result,
+  };
+}
+
+export async function openProgram(core: ModelCore, module: LoadedModule, name: string) {
+  const beside = { name, main: programText(`${name}.scad`), external: new Map() };
+  const program = { variations: programText(`${name}.variations.json`) };
+  const files = (await withProgramRead(core, { ...beside, program }, options)) as ModelFiles & { cad: CadSource };
+  const reply = module.invoke('open', JSON.stringify({ name, external: [] }), [files.main], null);
+  const { shape } = (JSON.parse(reply.json) as { result: { shape: Shape } }).result;
+  const model = { files, shape, source: { kind: 'file' as const }, labels: noLabels };
+  const session = createSession();
+  const source = await familyOf(core, files, undefined, options);
+  session.replaceDocument(withFamily({ ...emptyDocument, model }, source, 0, session.newEntry), `open ${name}`);
+  const family = () => session.document.value.family as FamilyState;
+  return { session, family, model, cad: files.cad };
+}

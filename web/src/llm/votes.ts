@@ -1,0 +1,60 @@
+// One prompt, asked several times: replies that were kept count first, then all others are asked for at once.
+import type { Prompt } from '../worker/protocol';
+import type { Tokens } from './adapter';
+import { AskError } from './ask_error';
+import type { Source } from './source';
+
+export interface Votes {
+  /** By vote, without those that failed. */
+  readonly texts: readonly { readonly vote: number; readonly text: string }[];
+  /** Calls that were made now, and their tokens as far as the provider counts them. */
+  readonly calls: number;
+  readonly tokens: Tokens;
+}
+
+/**
+ * @param onVote told how many of the votes are there
+ * @throws AskError when every call failed, or would fail alike; or the signal's reason
+ */
+export async function askVotes(
+  prompt: Prompt,
+  schema: object,
+  source: Source,
+  signal: AbortSignal,
+  onVote: (done: number, of: number) => void,
+): Promise<Votes> {
+  const of = source.votes(prompt);
+  const texts: { vote: number; text: string }[] = [];
+  const tokens = { input: 0, output: 0 };
+  const all = new AbortController();
+  const failures: AskError[] = [];
+  let calls = 0;
+  let done = 0;
+
+  const kept = await Promise.all(Array.from({ length: of }, (_, vote) => source.kept(prompt, vote)));
+  for (const [vote, text] of kept.entries()) if (text !== undefined) texts.push({ vote, text });
+  done = texts.length;
+  onVote(done, of);
+  const one = async (vote: number) => {
+    const own = AbortSignal.any([signal, all.signal]);
+    try {
+      const reply = await source.reply(prompt, vote, schema, own);
+      texts.push({ vote, text: reply.text });
+      calls++;
+      tokens.input += reply.tokens?.input ?? 0;
+      tokens.output += reply.tokens?.output ?? 0;
+    } catch (error) {
+      if (own.aborted) return;
+      if (!(error instanceof AskError)) throw error;
+      failures.push(error);
+      if (error.isHopeless) all.abort(error);
+    } finally {
+      onVote(++done, of);
+    }
+  };
+  await Promise.all(kept.map((text, vote) => (text === undefined ? one(vote) : null)));
+  signal.throwIfAborted();
+  if (all.signal.aborted) throw all.signal.reason;
+  if (texts.length === 0 && failures[0] !== undefined) throw failures[0];
+  return { texts: texts.sort((a, b) => a.vote - b.vote), calls, tokens };
+}

@@ -1,0 +1,66 @@
+// The page's end of changing by hand what is one part: a worker for one step, ended when it is done or cancelled.
+import type { Carved, CarveStep } from '../carve/steps';
+import type { ModelFiles } from '../scene/load';
+import type { CarveReply, CarveRequest } from '../worker/carve.worker';
+import { watched } from '../worker/watch';
+import { FileError } from './files';
+import type { RunOptions } from './tasks';
+
+export interface CarvedFiles extends Pick<Carved, 'lost' | 'moved' | 'made'> {
+  readonly files: ModelFiles;
+}
+
+/** Does a step. */
+export type Carver = (files: ModelFiles, step: CarveStep, options: RunOptions) => Promise<CarvedFiles>;
+
+/** The files after a step, which they remember. Rejects with a FileError when it cannot be done, with the signal's reason. */
+export const carved: Carver = async (files, step, { signal, onProgress }) => {
+  signal.throwIfAborted();
+  onProgress({ step: 'changing the parts', done: 0, total: 1 });
+  const reply = await ask({ files: { main: files.main, external: files.external }, step }, signal);
+  if ('error' in reply) throw new FileError(reply.error);
+  const { glb, ...rest } = reply;
+  return { files: withStep(files, glb, step), ...rest };
+};
+
+/** Files of what came of a step. */
+export function withStep(files: ModelFiles, main: Uint8Array, step: CarveStep): ModelFiles {
+  const { carved: before, ...others } = files;
+  return {
+    ...others,
+    main,
+    external: new Map(),
+    carved: { from: before?.from ?? files, steps: [...(before?.steps ?? []), step] },
+  };
+}
+
+/** The files as saved work had them: with its steps done, unless they are already. */
+export async function carvedAs(
+  steps: readonly CarveStep[] | undefined,
+  files: ModelFiles,
+  carve: Carver,
+  options: RunOptions,
+): Promise<ModelFiles> {
+  if (steps === undefined || files.carved !== undefined) return files;
+  let made = files;
+  for (const step of steps) made = (await carve(made, step, options)).files;
+  return made;
+}
+
+async function ask(request: CarveRequest, signal: AbortSignal): Promise<CarveReply> {
+  const worker = watched(
+    (name) => new Worker(new URL('../worker/carve.worker.ts', import.meta.url), { type: 'module', name }),
+  );
+  const ended = 'The browser ended what changes the parts: it may want too much memory. Choose smaller parts.';
+  try {
+    return await new Promise((resolve, reject) => {
+      worker.onmessage = ({ data }: MessageEvent<CarveReply>) => resolve(data);
+      worker.onerror = ({ message }) => resolve({ error: message || 'The worker did not start. Reload the page.' });
+      worker.ondeath = () => resolve({ error: ended });
+      signal.addEventListener('abort', () => reject(signal.reason), { once: true });
+      worker.postMessage(request);
+    });
+  } finally {
+    worker.terminate();
+  }
+}

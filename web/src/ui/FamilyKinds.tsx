@@ -1,0 +1,267 @@
+// Kinds that a language model suggests, as cards: each comes in with a picture when its numbers are there, and is kept as a
+// variation or dropped.
+import { useSignal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import { costOf, isDemo } from '../llm/settings';
+import type { FamilyState } from '../session/family_state';
+import { kinds } from '../session/kind_suggestions';
+import type { AskedKinds, KindCard } from '../session/kinds';
+import { task } from '../session/session';
+import { dialog } from './actions';
+import { Icon } from './Icon';
+import { drawKinds, kindPictures } from './kind_pictures';
+import { listWords } from './words';
+
+/** The button that asks, and one's own word for a kind. */
+export function SuggestKinds() {
+  const name = useSignal('');
+  const typed = name.value.trim();
+  const isRunning = kinds.asked.value?.isRunning ?? false;
+  return (
+    <form
+      class="row keep"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (typed === '') return;
+        void kinds.draw(typed);
+        name.value = '';
+      }}
+    >
+      <button
+        type="button"
+        class="button outlined"
+        disabled={isRunning || task.value !== null}
+        title="Asks a language model which kinds of this there are, and draws the most common ones"
+        onClick={() => void kinds.start()}
+      >
+        <Icon name="sparkle" /> Suggest kinds
+      </button>
+      {!isDemo.value && (
+        <>
+          <input
+            class="grow"
+            type="text"
+            maxLength={60}
+            placeholder="Or one that you name"
+            aria-label="A kind to draw"
+            value={name.value}
+            onInput={(event) => (name.value = event.currentTarget.value)}
+          />
+          <button type="submit" class="button" disabled={typed === '' || isRunning}>
+            Draw
+          </button>
+        </>
+      )}
+    </form>
+  );
+}
+
+export function FamilyKinds({ family }: { family: FamilyState }) {
+  const section = useRef<HTMLElement>(null);
+  const asked = kinds.asked.value;
+  useEffect(() => drawKinds(kinds), []);
+  const stop = asked?.stop;
+  useEffect(() => {
+    if (stop !== undefined) section.current?.scrollIntoView({ block: 'start' });
+  }, [stop]);
+  if (asked === null) return null;
+  const drawn = asked.cards.filter(({ state }) => state.kind === 'drawn');
+  const known = new Set(family.found.family.variations.map(({ name }) => name));
+  return (
+    <section class="suggested" aria-label="Suggested kinds" ref={section}>
+      <header class="row">
+        <h3 class="grow">Suggested kinds</h3>
+        {drawn.length > 1 && (
+          <button
+            type="button"
+            class="button primary"
+            disabled={asked.isRunning || task.value !== null}
+            onClick={() => void kinds.keep()}
+          >
+            Keep all {drawn.length}
+          </button>
+        )}
+        <button
+          type="button"
+          class="button icon-only"
+          aria-label="Drop all suggested kinds"
+          title="Drop all"
+          onClick={kinds.close}
+        >
+          <Icon name="close" />
+        </button>
+      </header>
+      <Progress asked={asked} />
+      {asked.failure && (
+        <div class="failed" role="alert">
+          <Icon name="warning" />
+          <p class="grow">{asked.failure.text}</p>
+          {asked.failure.isSetting && (
+            <button type="button" class="button outlined" onClick={() => (dialog.value = 'model')}>
+              Settings
+            </button>
+          )}
+        </div>
+      )}
+      <ul class="cards kinds">
+        {asked.cards.map((card) =>
+          card.state.kind === 'named' ? null : (
+            <Card key={card.name} asked={asked} card={card} isKnown={known.has(card.name)} />
+          ),
+        )}
+      </ul>
+      <Others asked={asked} />
+    </section>
+  );
+}
+
+/** One line, and a way to stop; then what it took. */
+function Progress({ asked }: { asked: AskedKinds }) {
+  const { cards, isAsking, isRunning } = asked;
+  const wanted = cards.filter(({ state }) => state.kind !== 'named' && state.kind !== 'stopped');
+  const done = wanted.filter(({ state }) => state.kind !== 'asking').length;
+  return (
+    <div class="row progress" role="status">
+      {isRunning && <span class="spinner" aria-hidden="true" />}
+      <p class="grow quiet">
+        {isAsking
+          ? 'Asking which kinds there are'
+          : isRunning
+            ? `Asking what they measure, ${done} of ${wanted.length}`
+            : endWords(asked)}
+      </p>
+      {isRunning && (
+        <button type="button" class="button outlined" onClick={kinds.stop}>
+          Cancel
+        </button>
+      )}
+    </div>
+  );
+}
+
+function endWords({ cards, spent }: AskedKinds): string {
+  const drawn = cards.filter(({ state }) => state.kind === 'drawn').length;
+  if (drawn === 0) return '';
+  if (isDemo.value) return `${drawn} drawn · recorded answers`;
+  const { input, output } = spent.tokens;
+  const cost = costOf(spent.tokens);
+  return [
+    `${drawn} drawn`,
+    spent.calls > 0 && `${spent.calls} answers, ${(input + output).toLocaleString('en')} tokens`,
+    spent.calls > 0 && cost !== null && `cost ${cost.toFixed(cost < 0.1 ? 4 : 2)}`,
+  ]
+    .filter(Boolean)
+    .join(' · ');
+}
+
+/** Kinds that fewer answers name, which are drawn when they are asked for. */
+function Others({ asked }: { asked: AskedKinds }) {
+  const others = asked.cards.filter(({ state }) => state.kind === 'named');
+  if (others.length === 0 || asked.isRunning) return null;
+  return (
+    <details>
+      <summary>Also named: {others.length}</summary>
+      {isDemo.value && <p class="quiet">Their numbers are not recorded: to draw them needs a key.</p>}
+      <ul class="other-kinds">
+        {others.map(({ name, words, votes }) => (
+          <li key={name} class="row">
+            <p class="grow">
+              {name}{' '}
+              <span class="quiet">
+                {words} · {votes} of {asked.answers}
+              </span>
+            </p>
+            {!isDemo.value && (
+              <button
+                type="button"
+                class="button outlined"
+                aria-label={`Draw ${name}`}
+                onClick={() => void kinds.draw(name)}
+              >
+                Draw
+              </button>
+            )}
+          </li>
+        ))}
+      </ul>
+    </details>
+  );
+}
+
+interface CardProps {
+  readonly asked: AskedKinds;
+  readonly card: KindCard;
+  /** Whether there is a variation of this name already. */
+  readonly isKnown: boolean;
+}
+
+function Card({ asked, card, isKnown }: CardProps) {
+  const { name, words, votes, state } = card;
+  const url = state.kind === 'drawn' ? kindPictures.value.get(state.picture) : undefined;
+  const named = votes === 0 ? '' : `${votes} of ${asked.answers} answers name it`;
+  return (
+    <li class="card proposal kind" aria-label={name}>
+      <span class="thumbnail">{url !== undefined && <img src={url} alt="" />}</span>
+      <div class="about">
+        <h4>{name}</h4>
+        {words !== '' && <p class="quiet">{words}</p>}
+        {state.kind === 'asking' && (
+          <p class="quiet">{state.of > 1 ? `${state.done} of ${state.of} answers` : 'Being asked…'}</p>
+        )}
+        {state.kind === 'stopped' && <p class="quiet">Not drawn: it was stopped.</p>}
+        {state.kind === 'refused' && (
+          <p class="broken unclean">
+            <Icon name="warning" />
+            <span>{state.text}</span>
+          </p>
+        )}
+        {state.kind === 'drawn' && <p class="quiet">{[drawnWords(asked, state), named].filter(Boolean).join(' · ')}</p>}
+        {state.kind !== 'asking' && (
+          <div class="row wrap">
+            {state.kind === 'drawn' ? (
+              <button
+                type="button"
+                class="button outlined"
+                disabled={task.value !== null}
+                title={isKnown ? 'The variation of this name gives way' : 'Makes it one of the variations'}
+                onClick={() => void kinds.keep([name])}
+              >
+                <Icon name="check" /> {isKnown ? 'Replace' : 'Keep'}
+              </button>
+            ) : (
+              <button
+                type="button"
+                class="button outlined"
+                disabled={asked.isRunning}
+                onClick={() => void kinds.draw(name)}
+              >
+                Try again
+              </button>
+            )}
+            <button type="button" class="button" aria-label={`Drop ${name}`} onClick={() => kinds.drop(name)}>
+              Drop
+            </button>
+          </div>
+        )}
+      </div>
+    </li>
+  );
+}
+
+/** "without back and arm × 2", and what of the answers could not be used. */
+function drawnWords(
+  { model }: AskedKinds,
+  { variation, refused, votes }: Extract<KindCard['state'], { kind: 'drawn' }>,
+) {
+  const parts = model.files.cad?.parts ?? [];
+  const absent = (variation as { readonly absent?: readonly string[] }).absent ?? [];
+  const counts = new Map<string, number>();
+  for (const id of absent) {
+    const stem = parts.find((part) => part.id === id)?.stem ?? id;
+    counts.set(stem, (counts.get(stem) ?? 0) + 1);
+  }
+  const stems = [...counts].map(([stem, count]) => (count === 1 ? stem : `${stem} × ${count}`));
+  const lacks = stems.length === 0 ? '' : `without ${listWords(stems)}`;
+  const left = refused === 0 ? '' : `${refused} of ${refused + votes} answers could not be used`;
+  return [lacks, left].filter(Boolean).join(' · ');
+}

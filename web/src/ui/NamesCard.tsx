@@ -1,0 +1,144 @@
+// Names that a language model suggests for the parts, as a list to correct: each line shows its part while it is pointed
+// at. What is accepted labels all parts in one step.
+import { useId } from 'preact/hooks';
+import { costOf, isDemo } from '../llm/settings';
+import { models } from '../session/core';
+import { nameOf } from '../session/document';
+import { names } from '../session/name_suggestions';
+import type { NameRow, Naming } from '../session/naming';
+import { document, pointedAt, task } from '../session/session';
+import { dialog } from './actions';
+import { Icon } from './Icon';
+import { paintNumbered } from './pictures';
+
+export function NamesCard() {
+  const naming = names.naming.value;
+  if (naming === null)
+    return (
+      <button
+        type="button"
+        class="button wide quiet"
+        disabled={models.value === null || task.value !== null}
+        title="A language model says what this is and what its parts are called, from their sizes and places alone"
+        onClick={() => void names.start(paintNumbered)}
+      >
+        Suggest names for the parts
+      </button>
+    );
+  return (
+    <section class="names-card" aria-label="Suggested names">
+      <header class="row">
+        <h3 class="grow">{naming.category === '' ? 'Suggested names' : `Looks like: ${naming.category}`}</h3>
+        <button type="button" class="button icon-only" aria-label="Drop the names" title="Drop" onClick={names.close}>
+          <Icon name="close" />
+        </button>
+      </header>
+      {naming.progress !== null && <Waiting naming={naming} />}
+      {naming.failure && (
+        <div class="failed" role="alert">
+          <Icon name="warning" />
+          <p class="grow">{naming.failure.text}</p>
+          {naming.failure.isSetting && (
+            <button type="button" class="button outlined" onClick={() => (dialog.value = 'model')}>
+              Settings
+            </button>
+          )}
+        </div>
+      )}
+      {naming.rows.length > 0 && <Names naming={naming} />}
+    </section>
+  );
+}
+
+function Waiting({ naming }: { naming: Naming }) {
+  const { done, of } = naming.progress ?? { done: 0, of: 1 };
+  return (
+    <div class="row progress" role="status">
+      <span class="spinner" aria-hidden="true" />
+      <p class="grow quiet">Asking what the parts are{of > 1 ? `, ${done} of ${of} answers` : ''}</p>
+      <button type="button" class="button outlined" onClick={names.close}>
+        Cancel
+      </button>
+    </div>
+  );
+}
+
+function Names({ naming }: { naming: Naming }) {
+  const list = useId();
+  const labels = [...new Set(naming.rows.map(({ label }) => label).filter(Boolean))];
+  return (
+    <form
+      class="names"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void names.accept();
+      }}
+    >
+      <p class="quiet">{aboutWords(naming)}</p>
+      <datalist id={list}>
+        {labels.map((label) => (
+          <option key={label} value={label} />
+        ))}
+      </datalist>
+      <ul>
+        {naming.rows.map((row) => (
+          <Row key={row.part} naming={naming} row={row} list={list} />
+        ))}
+      </ul>
+      <button type="submit" class="button primary" disabled={task.value !== null || labels.length === 0}>
+        <Icon name="check" /> Use these names
+      </button>
+    </form>
+  );
+}
+
+function Row({ naming, row, list }: { naming: Naming; row: NameRow; list: string }) {
+  const part = naming.model.shape.parts.find(({ id }) => id === row.part);
+  if (part === undefined) return null;
+  const show = () => {
+    pointedAt.value = { parts: part.virtual ? part.members : [part.id], relations: [] };
+  };
+  const hide = () => {
+    pointedAt.value = null;
+  };
+  const now = nameOf(document.value, part.id);
+  const isSplit = row.votes !== null && row.votes < naming.of;
+  return (
+    <li onPointerEnter={show} onPointerLeave={hide}>
+      <span class="quiet">{now}</span>
+      <input
+        type="text"
+        maxLength={64}
+        list={list}
+        autocomplete="off"
+        aria-label={`Name of ${now}`}
+        placeholder="keeps its name"
+        value={row.label}
+        onFocus={show}
+        onBlur={hide}
+        onInput={(event) => names.rename(row.part, event.currentTarget.value)}
+      />
+      {isSplit && (
+        <span class={2 * (row.votes ?? 0) <= naming.of ? 'unsure' : 'quiet'} title="Answers that say so">
+          {row.votes} of {naming.of}
+        </span>
+      )}
+    </li>
+  );
+}
+
+const sides = { '+z': 'its front', '-z': 'its back', '+x': 'its left', '-x': 'its right', '': '' } as const;
+
+function aboutWords({ front, of, spent }: Naming): string {
+  const faces = front === '' || front === '+z' ? '' : `It seems to face what is taken for ${sides[front]}.`;
+  const answers = isDemo.value ? 'Recorded answers.' : answersWords(of, spent);
+  return [faces, 'Parts of one name are compared for symmetry; correct what is wrong.', answers]
+    .filter(Boolean)
+    .join(' ');
+}
+
+function answersWords(of: number, { calls, tokens }: Naming['spent']): string {
+  const cost = costOf(tokens);
+  const price = calls > 0 && cost !== null ? `, cost ${cost.toFixed(cost < 0.1 ? 4 : 2)}` : '';
+  return `${of} ${of === 1 ? 'answer' : 'answers'}${price}.`;
+}

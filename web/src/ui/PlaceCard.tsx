@@ -1,0 +1,129 @@
+// How the model stands and how large it is: offered where the file seems to say it otherwise, and to be changed.
+import { type Direction, turnedRound, turnedUp } from '../carve/placing';
+import { whyUncarvable } from '../session/carving';
+import { models } from '../session/core';
+import { formatLengths, formatMeasure } from '../session/measure';
+import { decline, declined, extentOf, fileUnits, place, placingOf, seemsDrawnIn, seemsUp } from '../session/placing';
+import { document, task } from '../session/session';
+import { Icon } from './Icon';
+
+const sideWords: Readonly<Record<Direction, string>> = {
+  '+x': 'It seems to lie on its right side.',
+  '-x': 'It seems to lie on its left side.',
+  '+y': '',
+  '-y': 'It seems to stand on its head.',
+  '+z': 'It seems to lie on its back.',
+  '-z': 'It seems to lie on its front.',
+};
+
+/** In the middle of the page, where the model is: the offer. */
+export function PlaceOffer() {
+  const { model, unit } = document.value;
+  const core = models.value;
+  if (model === null || core === null || task.value !== null || declined.value.has(model.files)) return null;
+  if (whyUncarvable(document.value) !== null) return null;
+  const now = placingOf(model.files);
+  const up = seemsUp(model.shape);
+  const metres = seemsDrawnIn(model.shape, now);
+  if (up === null && metres === null) return null;
+  const [, height] = extentOf(model.shape);
+  const longest = Math.max(...extentOf(model.shape));
+  const length = (value: number) => formatMeasure('height', value, value, unit);
+  return (
+    <section class="panel note tour-offer" aria-label="How it stands">
+      {up !== null ? (
+        <>
+          <span>{sideWords[up]}</span>
+          <button type="button" class="button" onClick={() => void place(core, turnedUp(now, up))}>
+            Stand it up
+          </button>
+        </>
+      ) : (
+        metres !== null && (
+          <>
+            <span>
+              This model is {length(height)} high{longest > 2 * height ? ` and ${length(longest)} long` : ''}.
+            </span>
+            <button type="button" class="button" onClick={() => void place(core, { ...now, metres })}>
+              Make it {length(height * metres)} high
+            </button>
+          </>
+        )
+      )}
+      <button
+        type="button"
+        class="button icon-only"
+        aria-label="Leave it as it is"
+        onClick={() => decline(model.files)}
+      >
+        <Icon name="close" />
+      </button>
+    </section>
+  );
+}
+
+/** Below the list of parts: how it stands, to be changed. */
+export function PlaceCard() {
+  const { model, unit } = document.value;
+  const core = models.value;
+  if (model === null || core === null) return null;
+  const now = placingOf(model.files);
+  const why = whyUncarvable(document.value);
+  const isOff = why !== null || task.value !== null;
+  const { lengths, unit: shown } = formatLengths(extentOf(model.shape), unit);
+  const units = fileUnits.some(({ metres }) => metres === now.metres)
+    ? fileUnits
+    : [...fileUnits, { metres: now.metres, label: `${now.metres.toLocaleString('en')} metres` }];
+  return (
+    <details class="place-card">
+      <summary>How it stands, and how large it is</summary>
+      <p class="quiet">
+        {lengths.join(' × ')} {shown}, width, height and depth. What is shown and said follows; the file is exported as
+        it was, unless you choose otherwise.
+      </p>
+      <div class="chips">
+        {(
+          [
+            ['+z', 'Tip it backwards'],
+            ['+x', 'Tip it to its right'],
+          ] as const
+        ).map(([up, label]) => (
+          <button
+            key={up}
+            type="button"
+            class="chip-button"
+            disabled={isOff}
+            title={why ?? 'By a quarter'}
+            onClick={() => void place(core, turnedUp(now, up))}
+          >
+            {label}
+          </button>
+        ))}
+        <button
+          type="button"
+          class="chip-button"
+          disabled={isOff}
+          title={why ?? 'By a quarter: what is its right becomes its front'}
+          onClick={() => void place(core, turnedRound(now))}
+        >
+          Turn it round
+        </button>
+      </div>
+      <label>
+        <span class="quiet">A unit of the file is one of</span>{' '}
+        <select
+          value={String(now.metres)}
+          disabled={isOff}
+          title={why ?? undefined}
+          onChange={(event) => void place(core, { ...now, metres: Number(event.currentTarget.value) })}
+        >
+          {units.map(({ metres, label }) => (
+            <option key={metres} value={String(metres)}>
+              {label}
+            </option>
+          ))}
+        </select>
+      </label>
+    </details>
+  );
+}

@@ -1,0 +1,22 @@
+// Lives for one step. See carve/carve.ts; the page's end is session/carve.ts.
+import { type CarveFiles, carve } from '../carve/carve';
+import type { Carved, CarveStep } from '../carve/steps';
+import { holdWatchedLock } from './watch';
+
+holdWatchedLock();
+
+export interface CarveRequest {
+  readonly files: CarveFiles;
+  readonly step: CarveStep;
+}
+
+export type CarveReply = Carved | { readonly error: string };
+
+self.onmessage = async ({ data }: MessageEvent<CarveRequest>) => {
+  try {
+    const reply: CarveReply = await carve(data.files, data.step);
+    self.postMessage(reply, { transfer: [reply.glb.buffer] });
+  } catch (error) {
+    self.postMessage({ error: error instanceof Error ? error.message : String(error) } satisfies CarveReply);
+  }
+};
