@@ -50,7 +50,8 @@ struct Prices {
   double against_hint = 30;
   /// Staying at rest in spite of a hint.
   double rest_against_hint = 6;
-  /// A rigid motion of everything, or of all that stands on the floor: no answer.
+  /// A rigid motion of everything, or of all that stands on the floor; all of a row doing what was asked of one: no
+  /// answer.
   double all_rigid = 40;
 };
 

@@ -53,12 +53,6 @@ double largest_difference(const Motion& a, const Motion& b) {
   return worst;
 }
 
-Motion still() {
-  Motion motion;
-  motion.fill(Corners::Zero());
-  return motion;
-}
-
 class Proposer {
  public:
   Proposer(const Problem& problem, const Edits& edits, PartIndex part, const std::optional<Hint>& hint,
@@ -368,25 +362,6 @@ class Proposer {
 };
 
 }  // namespace
-
-static double price_of_footing(const Prices& prices, const Footing& footing, const Motion& motion) {
-  double off = 0;
-  bool dragged = false;
-  for (const std::size_t s : {std::size_t{0}, sample_count - 1}) {
-    Vec3 mean = Vec3::Zero();
-    double least = std::numeric_limits<double>::infinity();
-    for (const Weights& point : footing.points) {
-      Vec3 moved = interpolate(point, motion[s]);
-      off = std::max(off, moved.cwiseProduct(footing.mask).cwiseAbs().maxCoeff());
-      moved.y() = 0;
-      mean += moved / static_cast<double>(footing.points.size());
-      least = std::min(least, moved.norm());
-    }
-    // What stretches to both sides, or away from an end that stays, is not dragged.
-    dragged = dragged || (std::isfinite(least) && std::min(least, mean.norm()) > exact);
-  }
-  return (off > exact ? prices.broken_ground : 0) + (dragged ? prices.dragged * footing.share : 0);
-}
 
 double price_of_relations(const Problem& problem, const Edits& edits, PartIndex part,
                           const std::vector<PointConstraint>& constraints, const Motion& motion) {

@@ -195,8 +195,13 @@ std::string Clearance::fault(double x) const {
   return first + " and " + second + (found[0].apart ? " would come apart" : " would run into each other");
 }
 
-void Clearance::accept(double x) {
-  for (const Fault& fault : faults(x)) accepted_.insert(std::minmax(fault.a, fault.b));
+bool Clearance::accept(double x) {
+  bool overlap = false;
+  for (const Fault& fault : faults(x)) {
+    accepted_.insert(std::minmax(fault.a, fault.b));
+    overlap = overlap || !fault.apart;
+  }
+  return overlap;
 }
 
 }  // namespace parsel

@@ -37,8 +37,9 @@ class Clearance {
   /// Time grows with n log n of n parts and with the pairs whose bounding boxes overlap.
   std::string fault(double x) const;
 
-  /// What is wrong at x is meant so, or was so from the start: those pairs are not looked at any more.
-  void accept(double x);
+  /// What is wrong at x is meant so, or was so from the start: those pairs are not looked at any more. Whether some of
+  /// them run into each other.
+  bool accept(double x);
 
  private:
   struct Body {

@@ -118,7 +118,7 @@ class Extension {
 
   SliderReach operator()(double least, double low, double high) {
     Range range = find_range(shape_, program_, layer_, low, high);
-    cut_where_seen(range);
+    cut_where_seen(range, least);
     core_ = range;
     core_.min = std::max(range.min, -least);
     core_.max = std::min(range.max, least);
@@ -126,16 +126,18 @@ class Extension {
   }
 
  private:
-  /// Ends the range where something is seen to go wrong; not what is so from the start, as when a handle is pulled off.
-  void cut_where_seen(Range& range) const {
-    const auto end_of = [&](double start, const End& end) {
-      if (std::abs(end.x) <= std::abs(start)) return end;
+  /// Ends the range where something is seen to go wrong. What is so from the start, as when a handle is pulled off, ends
+  /// nothing; a side on which parts run into each other from the start goes no farther than the search looked.
+  void cut_where_seen(Range& range, double least) const {
+    const auto end_of = [&](double side, End end) {
+      if (std::abs(end.x) <= least_seen) return end;
       Clearance clearance(shape_, program_, layer_);
-      clearance.accept(start);
-      return cut(start, end, [&](double x) { return clearance.fault(x); });
+      const std::string reason = clearance.fault(side * least_seen);
+      if (clearance.accept(side * least_seen) && std::abs(end.x) > least) end = {side * least, reason};
+      return cut(side * least_seen, end, [&](double x) { return clearance.fault(x); });
     };
-    const End low = end_of(-least_seen, {range.min, range.min_reason});
-    const End high = end_of(least_seen, {range.max, range.max_reason});
+    const End low = end_of(-1, {range.min, range.min_reason});
+    const End high = end_of(1, {range.max, range.max_reason});
     range = {low.x, high.x, low.reason, high.reason};
   }
 

@@ -98,6 +98,29 @@ TEST_CASE("a drawer that is pulled comes out of its chest with its knob; the che
   for (const PartIndex part : {left, right, top}) CHECK(moved(shape, found, part) == 0);
 }
 
+TEST_CASE("one of the drawers on the front of a pedestal comes off it; the others, the pedestal and its top stay") {
+  test::BoxShape s;
+  const PartIndex pedestal = s.box("pedestal", {0, 0, 0}, {0.3, 0.4, 0.4});
+  const PartIndex top = s.box("top", {0, 0.43, 0}, {0.35, 0.03, 0.45});
+  s.stand(pedestal);
+  s.attach(top, pedestal, {{-0.3, 0.4, 0}, {0.3, 0.4, 0}});
+  const PartIndex row = s.row("drawer", 3, {0, -0.25, 0.41}, {0, 0.25, 0.41}, {0.25, 0.1, 0.01}, 1);
+  const auto drawer = [&](int i) { return *s.shape().find_part("drawer_" + std::to_string(i)); };
+  for (int i = 1; i <= 3; ++i) {
+    const double y = 0.25 * (i - 2);
+    s.attach(pedestal, drawer(i),
+             {{-0.25, y - 0.1, 0.4}, {0.25, y - 0.1, 0.4}, {-0.25, y + 0.1, 0.4}, {0.25, y + 0.1, 0.4}});
+  }
+  s.attach(pedestal, row, {{-0.25, -0.35, 0.4}, {0.25, -0.35, 0.4}, {-0.25, 0.35, 0.4}, {0.25, 0.35, 0.4}});
+  const Shape& shape = s.shape();
+  const Propagation found = run(shape, {{"seed", {move("drawer_2", Vec3::UnitZ())}}});
+  CHECK(moved(shape, found, drawer(2)) == doctest::Approx(0.2));
+  for (const PartIndex part : {pedestal, top, drawer(1), drawer(3)}) CHECK(moved(shape, found, part) == 0);
+  // Asked of the row, all come off or the pedestal grows with them.
+  const Propagation all = run(shape, {{"seed", {move("drawers", Vec3::UnitZ())}}});
+  for (int i = 1; i <= 3; ++i) CHECK(moved(shape, all, drawer(i)) == doctest::Approx(0.2));
+}
+
 TEST_CASE("a door opens on its hinges and takes its handle along; the cabinet and the other door stay") {
   test::BoxShape s;
   const PartIndex body = s.box("body", {0, 0, 0}, {0.4, 0.5, 0.2});
