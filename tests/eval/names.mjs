@@ -30,6 +30,29 @@ function relationsByPart(shape) {
   return found;
 }
 
+/** By key: the parts of the same label, which are compared for symmetry. */
+function setsOf(labels) {
+  return new Map(
+    [...labels].map(([key, label]) => [key, new Set([...labels].flatMap(([k, l]) => (l === label ? [k] : [])))]),
+  );
+}
+
+const places = 'left|right|front|back|rear|top|bottom|upper|lower|inner|outer|middle|center|centre';
+const ends = new RegExp(`^(?:${places}) ?(?=.)|(?<=.) ?(?:${places})$`);
+
+/** The label without what only says a place, glued or not: as core/shape compares them, near enough for English names. */
+function stem(label) {
+  let left = label
+    .toLowerCase()
+    .replace(/[^a-z]+/g, ' ')
+    .trim();
+  for (let next = left.replace(ends, ''); next !== left; next = left.replace(ends, '')) left = next;
+  return left || label;
+}
+
+const labelsOf = (shape) =>
+  new Map(shape.parts.filter(({ virtual }) => !virtual).map((part) => [keyOf(part), stem(part.label)]));
+
 const sameSet = (a, b) => a.size === b.size && [...a].every((one) => b.has(one));
 
 /** @returns how many of the parts have the relations of `right` in `shape` */
@@ -38,12 +61,20 @@ function agreeing(right, shape) {
   return [...right].filter(([key, set]) => sameSet(set, own.get(key) ?? new Set())).length;
 }
 
+/** How many parts share their label with the same others in both. */
+function together(a, b) {
+  const other = setsOf(labelsOf(b));
+  return [...setsOf(labelsOf(a))].filter(([key, set]) => sameSet(set, other.get(key) ?? new Set())).length;
+}
+
 /**
  * @param repliesOf by prompt: texts of replies
- * @returns {parts, same: with the voted names, without: with no names at all, names}; null without replies
+ * @returns {parts, same: with the voted names, without: with no names at all, together: of parts that share their name with
+ *   the same others, names}; null without replies
  */
 export function measureNames(core, name, glb, repliesOf) {
-  const right = relationsByPart(core('open', { name, external: [] }, [glb]).result.shape);
+  const given = core('open', { name, external: [] }, [glb]).result.shape;
+  const right = relationsByPart(given);
   const bare = withoutNames(glb);
   const { shape } = core('open', { name, external: [] }, [bare]).result;
   const { prompt } = core('proposal_prompt', asked).result;
@@ -63,6 +94,7 @@ export function measureNames(core, name, glb, repliesOf) {
     parts: right.size,
     same: agreeing(right, renamed),
     without: agreeing(right, shape),
+    together: together(given, renamed),
     names,
     refused: refused.length,
     hash: prompt.hash,
@@ -93,19 +125,20 @@ if (process.argv[1] && import.meta.url === pathToFileURL(process.argv[1]).href) 
           const measured = measureNames(core, id, new Uint8Array(readFileSync(file)), () => texts);
           return measured === null ? [] : [{ id, ...measured }];
         });
-  let [parts, same, without] = [0, 0, 0];
+  let [parts, same, without, sets] = [0, 0, 0, 0];
   for (const one of all) {
     parts += one.parts;
     same += one.same;
     without += one.without;
+    sets += one.together;
     const { category, category_votes, front, of } = one.names;
     process.stdout.write(
-      `${one.id}: ${one.same} of ${one.parts} parts (${one.without} without names); ${category} (${category_votes} of ${of}), ` +
+      `${one.id}: ${one.same} of ${one.parts} parts (${one.without} without names), ${one.together} grouped alike; ${category} (${category_votes} of ${of}), ` +
         `front ${front}; ${one.names.parts.map(({ part, label }) => `${part}=${label}`).join(', ')}\n`,
     );
   }
   const share = (n) => `${((100 * n) / Math.max(1, parts)).toFixed(1)} %`;
   process.stdout.write(
-    `${all.length} models, ${parts} parts: ${share(same)} as with the given names, ${share(without)} without\n`,
+    `${all.length} models, ${parts} parts: ${share(same)} as with the given names, ${share(without)} without; ${share(sets)} grouped alike\n`,
   );
 }

@@ -2,6 +2,7 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { loadCore, root } from './core.mjs';
+import { namelessIds, withoutNames } from './nameless.mjs';
 
 const folder = join(root, 'web', 'public', 'gallery');
 const core = await loadCore();
@@ -9,6 +10,14 @@ const { result, buffers } = core('gallery', {});
 mkdirSync(join(folder, 'programs'), { recursive: true });
 for (const [index, { file }] of result.models.entries()) writeFileSync(join(folder, file), buffers[index]);
 writeFileSync(join(folder, 'gallery.json'), JSON.stringify(result.models));
+
+// What most models of the world look like.
+const nameless = namelessIds.map((id) => {
+  const index = result.models.findIndex((model) => model.id === id);
+  writeFileSync(join(folder, `${id}_nameless.glb`), withoutNames(buffers[index]));
+  return { id: `${id}_nameless`, title: `${result.models[index].title}, nameless` };
+});
+writeFileSync(join(folder, 'nameless.json'), JSON.stringify(nameless));
 
 // The CAD programs, each with its variations and what it makes: the thumbnails are drawn from that.
 const { result: cad, buffers: texts } = core('cad_gallery', {});

@@ -16,6 +16,20 @@ const named = [
   'animations',
 ];
 
+/** Models of the gallery that come once more without their names, as <id>_nameless. */
+export const namelessIds = [
+  'chair',
+  'armchair',
+  'bench',
+  'bookcase',
+  'desk',
+  'dining_table',
+  'cabinet',
+  'bed',
+  'ladder',
+  'floor_lamp',
+];
+
 /** @param glb bytes of a GLB. @returns bytes of another */
 export function withoutNames(glb) {
   const view = new DataView(glb.buffer, glb.byteOffset, glb.byteLength);

@@ -33,6 +33,7 @@ export function renderProposals(
   recordings: ReadonlyMap<string, Recording>,
 ): RenderedRequest[];
 export function renderKinds(core: Core, recordings: ReadonlyMap<string, Recording>): RenderedRequest[];
+export function renderNames(core: Core): RenderedRequest[];
 export function renderAll(core: Core, recordings?: ReadonlyMap<string, Recording>): RenderedRequest[];
 export function compare(
   rendered: readonly RenderedRequest[],

@@ -3,6 +3,7 @@
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from './core.mjs';
+import { namelessIds, withoutNames } from './nameless.mjs';
 
 const requestsFile = join(root, 'prompts', 'requests.json');
 const proposalsFile = join(root, 'prompts', 'proposals.json');
@@ -139,12 +140,28 @@ export function renderKinds(core, recordings) {
   });
 }
 
+/** Renders what is asked about the gallery's models without names: what their parts are called. */
+export function renderNames(core) {
+  const { result, buffers } = core('gallery', {});
+  return namelessIds.map((id) => {
+    const model = `${id}_nameless`;
+    const index = result.models.findIndex((one) => one.id === id);
+    core('open', { name: model, external: [] }, [withoutNames(buffers[index])]);
+    const task = 'part_names';
+    const asked = { task, request: '', mentioned: [], count: 0, picture: false };
+    const { prompt, words, schema } = core('proposal_prompt', asked).result;
+    const tasks = { [task]: { words, schema } };
+    return { model, task, request: '', mentioned: [], suggest: false, prompts: [prompt], tasks };
+  });
+}
+
 /** Everything that may be recorded. */
 export function renderAll(core, recordings = readRecordings()) {
   return [
     ...renderRequests(core, readRequests()),
     ...renderProposals(core, readProposals(), recordings),
     ...renderKinds(core, recordings),
+    ...renderNames(core),
   ];
 }
 

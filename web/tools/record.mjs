@@ -1,5 +1,5 @@
 // Keeps prompts/recordings: which prompts of prompts/requests.json and prompts/proposals.json, of what is proposed, and about
-// the gallery's CAD programs have no recorded reply, and recording them. One that goes along with a picture is not asked here.
+// the gallery's CAD programs and its models without names have no recorded reply, and recording them. One that goes along with a picture is not asked here.
 //
 //   node web/tools/record.mjs                             lists what is recorded, missing and stale
 //   node web/tools/record.mjs --write DIR [--votes 5]     writes what is missing as DIR/<hash>.<vote>.prompt.md

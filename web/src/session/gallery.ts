@@ -44,13 +44,17 @@ export function loadGallery(): Promise<readonly GalleryEntry[]> {
   return loading;
 }
 
-const programsSchema = v.array(v.strictObject({ id: v.pipe(v.string(), v.regex(/^\w+_program$/)), title: v.string() }));
+const listSchema = v.array(v.strictObject({ id: v.pipe(v.string(), v.regex(/^\w+$/)), title: v.string() }));
 
 /** The CAD programs that come with the page: gallery/programs.json. Empty when it came without. */
-export async function loadPrograms(): Promise<v.InferOutput<typeof programsSchema>> {
+export const loadPrograms = () => loadList('programs');
+/** Models of the gallery once more, without any name in them: gallery/nameless.json. */
+export const loadNameless = () => loadList('nameless');
+
+async function loadList(name: string): Promise<v.InferOutput<typeof listSchema>> {
   try {
-    const response = await fetch('./gallery/programs.json');
-    return response.ok ? v.parse(programsSchema, await response.json()) : [];
+    const response = await fetch(`./gallery/${name}.json`);
+    return response.ok ? v.parse(listSchema, await response.json()) : [];
   } catch {
     return [];
   }

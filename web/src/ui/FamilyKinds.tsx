@@ -1,7 +1,7 @@
 // Kinds that a language model suggests, as cards: each comes in with a picture when its numbers are there, and is kept as a
 // variation or dropped.
 import { useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
+import { useEffect, useRef } from 'preact/hooks';
 import { costOf, isDemo } from '../llm/settings';
 import type { FamilyState } from '../session/family_state';
 import { kinds } from '../session/kind_suggestions';
@@ -57,13 +57,18 @@ export function SuggestKinds() {
 }
 
 export function FamilyKinds({ family }: { family: FamilyState }) {
+  const section = useRef<HTMLElement>(null);
   const asked = kinds.asked.value;
   useEffect(() => drawKinds(kinds), []);
+  const stop = asked?.stop;
+  useEffect(() => {
+    if (stop !== undefined) section.current?.scrollIntoView({ block: 'start' });
+  }, [stop]);
   if (asked === null) return null;
   const drawn = asked.cards.filter(({ state }) => state.kind === 'drawn');
   const known = new Set(family.found.family.variations.map(({ name }) => name));
   return (
-    <section class="suggested" aria-label="Suggested kinds">
+    <section class="suggested" aria-label="Suggested kinds" ref={section}>
       <header class="row">
         <h3 class="grow">Suggested kinds</h3>
         {drawn.length > 1 && (
@@ -99,10 +104,13 @@ export function FamilyKinds({ family }: { family: FamilyState }) {
         </div>
       )}
       <ul class="cards kinds">
-        {asked.cards.map((card) => (
-          <Card key={card.name} asked={asked} card={card} isKnown={known.has(card.name)} />
-        ))}
+        {asked.cards.map((card) =>
+          card.state.kind === 'named' ? null : (
+            <Card key={card.name} asked={asked} card={card} isKnown={known.has(card.name)} />
+          ),
+        )}
       </ul>
+      <Others asked={asked} />
     </section>
   );
 }
@@ -132,8 +140,8 @@ function Progress({ asked }: { asked: AskedKinds }) {
 }
 
 function endWords({ cards, spent }: AskedKinds): string {
-  if (cards.length === 0) return '';
   const drawn = cards.filter(({ state }) => state.kind === 'drawn').length;
+  if (drawn === 0) return '';
   if (isDemo.value) return `${drawn} drawn · recorded answers`;
   const { input, output } = spent.tokens;
   const cost = costOf(spent.tokens);
@@ -144,6 +152,40 @@ function endWords({ cards, spent }: AskedKinds): string {
   ]
     .filter(Boolean)
     .join(' · ');
+}
+
+/** Kinds that fewer answers name, which are drawn when they are asked for. */
+function Others({ asked }: { asked: AskedKinds }) {
+  const others = asked.cards.filter(({ state }) => state.kind === 'named');
+  if (others.length === 0 || asked.isRunning) return null;
+  return (
+    <details>
+      <summary>Also named: {others.length}</summary>
+      {isDemo.value && <p class="quiet">Their numbers are not recorded: to draw them needs a key.</p>}
+      <ul class="other-kinds">
+        {others.map(({ name, words, votes }) => (
+          <li key={name} class="row">
+            <p class="grow">
+              {name}{' '}
+              <span class="quiet">
+                {words} · {votes} of {asked.answers}
+              </span>
+            </p>
+            {!isDemo.value && (
+              <button
+                type="button"
+                class="button outlined"
+                aria-label={`Draw ${name}`}
+                onClick={() => void kinds.draw(name)}
+              >
+                Draw
+              </button>
+            )}
+          </li>
+        ))}
+      </ul>
+    </details>
+  );
 }
 
 interface CardProps {
@@ -174,7 +216,6 @@ function Card({ asked, card, isKnown }: CardProps) {
           </p>
         )}
         {state.kind === 'drawn' && <p class="quiet">{[drawnWords(asked, state), named].filter(Boolean).join(' · ')}</p>}
-        {state.kind === 'named' && named !== '' && <p class="quiet">{named}</p>}
         {state.kind !== 'asking' && (
           <div class="row wrap">
             {state.kind === 'drawn' ? (
@@ -194,7 +235,7 @@ function Card({ asked, card, isKnown }: CardProps) {
                 disabled={asked.isRunning}
                 onClick={() => void kinds.draw(name)}
               >
-                {state.kind === 'named' ? 'Draw' : 'Try again'}
+                Try again
               </button>
             )}
             <button type="button" class="button" aria-label={`Drop ${name}`} onClick={() => kinds.drop(name)}>
@@ -207,14 +248,19 @@ function Card({ asked, card, isKnown }: CardProps) {
   );
 }
 
-/** "without arms" and what of the answers could not be used. */
+/** "without back and arm × 2", and what of the answers could not be used. */
 function drawnWords(
   { model }: AskedKinds,
   { variation, refused, votes }: Extract<KindCard['state'], { kind: 'drawn' }>,
 ) {
   const parts = model.files.cad?.parts ?? [];
   const absent = (variation as { readonly absent?: readonly string[] }).absent ?? [];
-  const stems = [...new Set(absent.map((id) => parts.find((part) => part.id === id)?.stem ?? id))];
+  const counts = new Map<string, number>();
+  for (const id of absent) {
+    const stem = parts.find((part) => part.id === id)?.stem ?? id;
+    counts.set(stem, (counts.get(stem) ?? 0) + 1);
+  }
+  const stems = [...counts].map(([stem, count]) => (count === 1 ? stem : `${stem} × ${count}`));
   const lacks = stems.length === 0 ? '' : `without ${listWords(stems)}`;
   const left = refused === 0 ? '' : `${refused} of ${refused + votes} answers could not be used`;
   return [lacks, left].filter(Boolean).join(' · ');

@@ -102,7 +102,7 @@ function Row({ naming, row, list }: { naming: Naming; row: NameRow; list: string
     pointedAt.value = null;
   };
   const now = nameOf(document.value, part.id);
-  const isSplit = row.votes !== null && 2 * row.votes <= naming.of;
+  const isSplit = row.votes !== null && row.votes < naming.of;
   return (
     <li onPointerEnter={show} onPointerLeave={hide}>
       <span class="quiet">{now}</span>
@@ -118,9 +118,11 @@ function Row({ naming, row, list }: { naming: Naming; row: NameRow; list: string
         onBlur={hide}
         onInput={(event) => names.rename(row.part, event.currentTarget.value)}
       />
-      <span class={isSplit ? 'unsure' : 'quiet'} title={row.votes === null ? 'Typed' : 'Answers that say so'}>
-        {row.votes === null ? '' : `${row.votes} of ${naming.of}`}
-      </span>
+      {isSplit && (
+        <span class={2 * (row.votes ?? 0) <= naming.of ? 'unsure' : 'quiet'} title="Answers that say so">
+          {row.votes} of {naming.of}
+        </span>
+      )}
     </li>
   );
 }

@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { models } from '../session/core';
-import { type GalleryEntry, loadGallery, loadPrograms } from '../session/gallery';
+import { type GalleryEntry, loadGallery, loadNameless, loadPrograms } from '../session/gallery';
 import { modelHosts } from '../session/model_hosts';
 import { openGallery, openUrl } from '../session/open';
 import { dialog } from './actions';
@@ -17,17 +17,19 @@ const close = () => {
 export function OpenDialog() {
   const gallery = useSignal<readonly GalleryEntry[]>([]);
   const programs = useSignal<readonly GalleryItem[]>([]);
+  const nameless = useSignal<readonly GalleryItem[]>([]);
   const address = useSignal('');
   const ready = models.value !== null;
   useEffect(() => {
     let stop = () => {};
-    void Promise.all([loadGallery(), loadPrograms()]).then(([entries, cad]) => {
+    void Promise.all([loadGallery(), loadPrograms(), loadNameless()]).then(([entries, cad, bare]) => {
       gallery.value = entries;
       programs.value = cad;
-      stop = thumbnails([...entries, ...cad].map(({ id }) => id));
+      nameless.value = bare;
+      stop = thumbnails([...entries, ...cad, ...bare].map(({ id }) => id));
     });
     return () => stop();
-  }, [gallery, programs]);
+  }, [gallery, programs, nameless]);
 
   return (
     <Dialog title="Open a model" class="open" onClose={close}>
@@ -59,6 +61,7 @@ export function OpenDialog() {
       </form>
       <Gallery title="Gallery" entries={gallery.value} ready={ready} />
       <Gallery title="OpenSCAD programs, each with its kinds" entries={programs.value} ready={ready} />
+      <Gallery title="Models without names, as most are" entries={nameless.value} ready={ready} />
     </Dialog>
   );
 }
