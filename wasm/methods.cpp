@@ -205,7 +205,7 @@ Result<Output> judge(const Input& input) {
 }
 
 /// program: parsel/program v1; values: one a layer; animate: a parameter's name, or morph: true, for a morph target of
-/// every slider; only: ids of parts.
+/// every slider, or repair: true, with what is pulled apart closed; only: ids of parts.
 Result<Output> apply(const Input& input) {
   const Result<Program> program = program_of(input);
   if (!program.ok()) return program.error();
@@ -224,7 +224,11 @@ Result<Output> apply(const Input& input) {
   if (!wanted.is_boolean()) return wrong_parameter("morph", "true or false");
   const bool morph = wanted.get<bool>();
   if (morph && animate) return wrong_parameter("morph", "false beside animate");
+  const json repair = input.parameters.value("repair", json(false));
+  if (!repair.is_boolean()) return wrong_parameter("repair", "true or false");
+  if (repair.get<bool>() && (morph || animate)) return wrong_parameter("repair", "false beside animate and morph");
   ApplyOptions options;
+  options.repair = repair.get<bool>();
   options.external = model->external;
   for (const json& id : input.parameters.value("only", json::array())) {
     const auto part = id.is_string() ? model->shape.find_part(id.get<std::string>()) : std::nullopt;
@@ -242,6 +246,7 @@ Result<Output> apply(const Input& input) {
     Result<Applied> applied = apply_program(model->file, model->shape, *program, values, animate, std::move(options));
     if (!applied.ok()) return applied.error();
     out = std::move(*applied);
+    if (repair.get<bool>()) result["gaps"] = to_json(model->shape, out.gaps);
   }
   result["warnings"] = json::array();
   for (const Warning& warning : out.warnings)

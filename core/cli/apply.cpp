@@ -43,6 +43,8 @@ int run(const Arguments& arguments) {
   if (!arguments.has("-o")) return misuse("apply needs -o for the file that it writes");
   if (arguments.has("--morph") && arguments.has("--animate"))
     return misuse("apply takes --animate or --morph, not both");
+  if (arguments.has("--repair") && (arguments.has("--animate") || arguments.has("--morph")))
+    return misuse("apply takes --repair for one state of the sliders, not with --animate or --morph");
   if (const Status allowed = replaces_a_model(arguments); !allowed.ok()) return refuse(allowed.error());
   const auto model = load_model(arguments.positional[0]);
   if (!model) return refuse(model.error());
@@ -55,6 +57,7 @@ int run(const Arguments& arguments) {
   if (arguments.has("--animate")) animate = Animate{arguments.option("--animate")};
   ApplyOptions options;
   options.external = model->buffers;
+  options.repair = arguments.has("--repair");
   if (arguments.has("--only")) {
     auto parts = parts_of(shape, arguments.option("--only"));
     if (!parts) return refuse(parts.error());
@@ -76,8 +79,10 @@ int run(const Arguments& arguments) {
   }
   const Status written = write_file(arguments.option("-o"), out.applied.glb);
   if (!written.ok()) return refuse(written.error());
-  if (!arguments.has("--morph")) return exit_done;
-  std::cout << to_json(out).dump(1) << '\n';  // -o names the model
+  const bool repaired = arguments.has("--repair");
+  if (!arguments.has("--morph") && !repaired) return exit_done;
+  // -o names the model
+  std::cout << (repaired ? to_json(shape, out.applied.gaps) : to_json(out)).dump(1) << '\n';
   return std::cout.flush() ? exit_done : exit_refused;
 }
 
@@ -86,12 +91,15 @@ int run(const Arguments& arguments) {
 extern const Command apply_command;
 const Command apply_command = {
     "apply",
-    "MODEL.glb PROGRAM [--set x1=0.2]… [--animate x1 | --morph] [--only part,part] [--force] -o OUT.glb",
+    "MODEL.glb PROGRAM [--set x1=0.2]… [--animate x1 | --morph | --repair] [--only part,part] [--force] -o "
+    "OUT.glb",
     "Writes the model as the program edits it (--animate: with an animation that plays the parameter; --morph: with a "
-    "morph target for every slider, as other tools show them, and prints their names and errors in metres; --force: "
+    "morph target for every slider, as other tools show them, and prints their names and errors in metres; --repair: "
+    "with parts that the edit has pulled apart made longer until they meet, and prints which, and what is left; "
+    "--force: "
     "over the model that it reads, or over a file that is no GLB).",
     {"--set", "--animate", "--only", "-o"},
-    {"--force", "--morph"},
+    {"--force", "--morph", "--repair"},
     run};
 
 }  // namespace parsel::cli

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/edit/evaluate.h"
+#include "core/export/close_gaps.h"
 #include "core/gltf/document.h"
 #include "core/shape/shape.h"
 
@@ -44,6 +45,9 @@ struct ApplyOptions {
   /// When not empty, everything else with a mesh is taken out of the scene (its data stays in the file). A virtual part
   /// stands for its instances.
   std::vector<PartIndex> only_parts;
+  /// Of apply_program(): whether what the program pulls apart is closed, as close_gaps() does it; not together with a
+  /// sweep or poses.
+  bool repair = false;
   /// Buffers and images that a .gltf names, by URI.
   ExternalBuffers external;
 };
@@ -51,6 +55,7 @@ struct ApplyOptions {
 struct Applied {
   std::string glb;
   std::vector<Warning> warnings;
+  ClosedGaps gaps;  ///< of a repair
 };
 
 /// `file`: the bytes of the GLB or glTF JSON that `shape` was made from; the result is GLB in both cases. `state`: what

@@ -36,7 +36,13 @@ Result<Applied> apply_program(std::string_view file, const Shape& shape, const P
     }
     options.sweep = std::move(sweep);
   }
-  return apply_state(file, shape, evaluate(values), options);
+  PARSEL_ASSERT(!options.repair || (!options.sweep && options.poses.empty()), "gaps are closed in one state");
+  State state = evaluate(values);
+  ClosedGaps gaps;
+  if (options.repair) gaps = close_gaps(shape, state);
+  auto applied = apply_state(file, shape, state, options);
+  if (applied.ok()) applied->gaps = std::move(gaps);
+  return applied;
 }
 
 }  // namespace parsel

@@ -51,6 +51,7 @@ function feed(model: string, edit: string): void {
     ['program.txt', '--set', `${name}=${max / 2}`],
     ['program.json', '--animate', name],
     ['program.json', '--morph'],
+    ['program.json', '--set', `${name}=${max}`, '--repair'],
   ] as const) {
     accepted('apply', model, program, ...options, '-o', 'edited.glb');
     accepted('inspect', 'edited.glb', '-o', 'edited.json');

@@ -123,4 +123,40 @@ describe('a model for printing', () => {
       await page.context().close();
     },
   );
+
+  it('whose parts an edit has pulled apart is in pieces, and one again where its gaps are closed', async () => {
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
+    const shape = await page.evaluate(() => parsel.document().model?.shape);
+    if (!shape) throw new Error('no model');
+    const [first] = program(shape).layers;
+    if (first === undefined) throw new Error('the program has no layer');
+    const raise = { op: 'translate', part: 'seat', feature: [0, 0, 0], direction: [0, 1, 0], amount: 'x1' } as const;
+    const raised = { ...first, request: 'raise the seat', statements: [raise] };
+    await page.evaluate((all) => parsel.addProgram(all, 'test'), { ...program(shape), layers: [raised] });
+    await page.getByRole('slider').first().fill('0.05');
+
+    const dialog = await openDialog(page);
+    await dialog.getByText(/It is in \d+ pieces/).waitFor();
+    await dialog.getByRole('checkbox', { name: /Close gaps/ }).check();
+    await dialog.getByText(/Gaps are closed: longer are .*leg by/).waitFor();
+    expect(await dialog.getByText(/It is in/).count()).toBe(0);
+    expect(await serious(page)).toEqual([]);
+    await page.screenshot({ path: `${outputFolder}/print-gaps.png` });
+    expect((await save(page, 'stl')).open).toBe(0);
+    await page.keyboard.press('Escape');
+
+    await page.getByRole('button', { name: 'Export' }).click();
+    const [event] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('menuitem', { name: 'Edited model, gaps closed' }).click(),
+    ]);
+    const parts = await partsOf(new Uint8Array(await readFile(await event.path())), new Map());
+    const top = (name: string) =>
+      Math.max(...parts.filter((part) => part.name === name).map(({ positions }) => boundsOf(positions).high[2] ?? 0));
+    const seat = parts.find(({ name }) => name === 'seat');
+    expect(top('leg')).toBeCloseTo(boundsOf(seat?.positions ?? []).low[2] ?? 0, 1);
+    await page.getByText(/Gaps are closed/).waitFor();
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
 });

@@ -65,6 +65,9 @@ describe('the boundary between the page and the core', () => {
     const morphed = invoke('apply', { program, values: [0], morph: true });
     const { sliders } = v.parse(methodSchemas.apply.result, (morphed.message as { result: unknown }).result);
     expect(sliders?.[0]?.targets.length).toBeGreaterThan(0);
+    const repaired = invoke('apply', { program, values: [0.1], repair: true });
+    const { gaps } = v.parse(methodSchemas.apply.result, (repaired.message as { result: unknown }).result);
+    expect(gaps).toEqual({ gaps: 0, closed: [], left: [] }); // what is propagated stays together
     const edited = invoke('apply', { program, values: [0.1] });
     expect(Buffer.from(edited.buffers[0] as Uint8Array).equals(Buffer.from(file))).toBe(false);
   });
@@ -163,6 +166,7 @@ describe('the boundary between the page and the core', () => {
     ['an edit of no kind', 'propagate', { edit: 7 }],
     ['an edit of no kind, cleanly', 'propagate_clean', { edit: 7 }],
     ['a program of no kind', 'apply', { program: {}, values: [] }],
+    ['a repair of no kind', 'apply', { program: {}, values: [], repair: 1 }],
     ['a program of no kind, stretched', 'extend', { program: {}, layer: 0, to: 1 }],
     ['a model that is none', 'open', { name: 'x', external: [] }],
     ['a request that is empty', 'prompts', { request: ' ', mentioned: [] }],

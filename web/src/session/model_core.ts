@@ -11,6 +11,8 @@ export interface Exported {
   readonly glb: Uint8Array;
   /** What could not be carried over, in sentences. */
   readonly warnings: readonly string[];
+  /** Of a repair. */
+  readonly gaps?: MethodResult<'apply'>['gaps'];
 }
 
 export interface ExportOptions {
@@ -18,6 +20,8 @@ export interface ExportOptions {
   readonly animate?: string;
   /** Ids of the parts to keep; all when absent. */
   readonly only?: readonly string[];
+  /** Whether what the edit has pulled apart is closed (core/export/close_gaps.h). */
+  readonly repair?: boolean;
 }
 
 export interface Propagation {
@@ -193,17 +197,22 @@ export function modelCore(client: CoreClient): ModelCore {
     async readReplies(model, request, replies) {
       return (await client.call('read_replies', { request, replies }, { needs: stateOf(model) })).result;
     },
-    async apply(model, program, { animate, only }) {
+    async apply(model, program, { animate, only, repair = false }) {
       const parameters = {
         program,
         values: program.layers.map(({ parameter }) => parameter.value),
         ...(animate === undefined ? {} : { animate }),
         ...(only === undefined ? {} : { only: [...only] }),
+        ...(repair ? { repair } : {}),
       };
       const { result, buffers } = await client.call('apply', parameters, { needs: stateOf(model) });
       const [glb] = buffers;
       if (glb === undefined) throw new Error('The core gave no file.');
-      return { glb, warnings: result.warnings.map(({ place, text }) => [place, text].filter(Boolean).join(': ')) };
+      return {
+        glb,
+        warnings: result.warnings.map(({ place, text }) => [place, text].filter(Boolean).join(': ')),
+        ...(result.gaps === undefined ? {} : { gaps: result.gaps }),
+      };
     },
   };
 }

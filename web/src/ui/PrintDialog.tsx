@@ -2,6 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { editedName } from '../session/download_names';
+import { gapSentences } from '../session/gaps';
 import { document, notice, run, selected, task } from '../session/session';
 import { unitedParts, writtenSolid } from '../session/solid';
 import { dialog, download, editedFile, modelName } from './actions';
@@ -9,29 +10,42 @@ import { Dialog } from './Dialog';
 
 type Made = NonNullable<Awaited<ReturnType<typeof make>>>;
 
-async function make(chosen: boolean, leaveOut: boolean) {
-  const { model } = document.peek();
+interface How {
+  /** Of the selected parts alone. */
+  readonly chosen: boolean;
+  readonly closeGaps: boolean;
+  readonly leaveOut: boolean;
+}
+
+async function make({ chosen, closeGaps, leaveOut }: How) {
+  const { model, unit } = document.peek();
   if (model === null) return null;
   return run('Making one solid', async (options) => {
-    const file = await editedFile(chosen ? 'selected' : 'all', options);
+    const file = await editedFile(chosen ? 'selected' : 'all', closeGaps, options);
     options.signal.throwIfAborted();
-    return file && unitedParts(file.glb, model.shape, leaveOut, options);
+    if (file === null) return null;
+    const united = await unitedParts(file.glb, model.shape, leaveOut, options);
+    return { ...united, gaps: gapSentences(file, model.shape, unit) };
   });
 }
 
 export function PrintDialog() {
   const made = useSignal<Made | null>(null);
-  const chosen = useSignal(false);
+  const how = useSignal<How>({ chosen: false, closeGaps: false, leaveOut: false });
   const longest = useSignal<number | null>(null); // millimetres; null: as it is
-  const start = async (leaveOut: boolean) => {
+  const start = async (change: Partial<How>) => {
+    how.value = { ...how.peek(), leaveOut: false, ...change };
+    const asked = how.peek();
     made.value = null;
-    made.value = await make(chosen.peek(), leaveOut);
+    const found = await make(asked);
+    if (how.peek() === asked) made.value = found;
   };
-  useEffect(() => void start(false), []);
+  useEffect(() => void start({}), []);
   const close = () => {
     task.peek()?.cancel();
     dialog.value = null;
   };
+  const hasEdits = document.value.layers.some(({ enabled }) => enabled);
   const solid = made.value?.solid ?? null;
   const faults = made.value?.faults ?? [];
   const size = solid === null ? [] : solid.high.map((x, i) => x - (solid.low[i] ?? 0));
@@ -55,18 +69,26 @@ export function PrintDialog() {
         <label class="check">
           <input
             type="checkbox"
-            checked={chosen.value}
-            onChange={(event) => {
-              chosen.value = event.currentTarget.checked;
-              void start(false);
-            }}
+            checked={how.value.chosen}
+            onChange={(event) => void start({ chosen: event.currentTarget.checked })}
           />
           <span>{selected.value.length === 1 ? 'The selected part only' : 'The selected parts only'}</span>
         </label>
       )}
+      {hasEdits && (
+        <label class="check">
+          <input
+            type="checkbox"
+            checked={how.value.closeGaps}
+            onChange={(event) => void start({ closeGaps: event.currentTarget.checked })}
+          />
+          <span>Close gaps: parts that the edits have pulled apart grow until they meet</span>
+        </label>
+      )}
+      {made.value !== null && made.value.gaps !== '' && <p class="quiet">{made.value.gaps}</p>}
       <Faults faults={faults} turned={made.value?.turned ?? []} leftOut={solid !== null} />
       {solid === null && faults.length > 0 && (
-        <button type="button" class="button" onClick={() => void start(true)}>
+        <button type="button" class="button" onClick={() => void start({ leaveOut: true })}>
           Leave {faults.length === 1 ? 'it' : 'them'} out
         </button>
       )}

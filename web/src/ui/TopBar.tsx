@@ -24,8 +24,20 @@ function exportItems(): MenuItem[] {
   return [
     { label: 'Edited model', hint: '.glb', disabled: none, act: () => void exportModel('all') },
     ...(model !== null && isPlaced(model.files)
-      ? [{ label: 'Edited model as it stands here', hint: '.glb', act: () => void exportModel('all', true) }]
+      ? [
+          {
+            label: 'Edited model as it stands here',
+            hint: '.glb',
+            act: () => void exportModel('all', { asItStands: true }),
+          },
+        ]
       : []),
+    {
+      label: 'Edited model, gaps closed',
+      hint: '.glb',
+      disabled: noLayer,
+      act: () => void exportModel('all', { repair: true }),
+    },
     {
       label: selected.value.length > 1 ? 'Selected parts only' : 'Selected part only',
       hint: '.glb',

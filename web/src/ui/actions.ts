@@ -7,6 +7,7 @@ import { editedName, plainName } from '../session/download_names';
 import { activeLayers } from '../session/evaluation';
 import { absentParts } from '../session/family_state';
 import { type FileSet, hasModel, sessionOf, unpacked } from '../session/files';
+import { gapSentences } from '../session/gaps';
 import type { Exported, ExportOptions } from '../session/model_core';
 import { oneFile, slidersOfWork } from '../session/one_file';
 import { openFiles, openSaved } from '../session/open';
@@ -91,8 +92,10 @@ export async function exportScreenshot(): Promise<void> {
   if (picture) download(fileName('.png'), picture);
 }
 
+export type ExportKind = 'all' | 'selected' | 'animated';
+
 /** The file of the model as it is edited and cut, or of some of its parts; null without a model. */
-export async function editedFile(kind: 'all' | 'selected' | 'animated', options: RunOptions): Promise<Exported | null> {
+export async function editedFile(kind: ExportKind, repair: boolean, options: RunOptions): Promise<Exported | null> {
   const core = models.peek();
   const { model } = document.peek();
   if (core === null || model === null) return null;
@@ -103,31 +106,45 @@ export async function editedFile(kind: 'all' | 'selected' | 'animated', options:
     ...(absent.size > 0 ? { only: present } : {}),
     ...(kind === 'animated' ? { animate: program.layers.at(-1)?.parameter.name ?? '' } : {}),
     ...(kind === 'selected' ? { only: [...selected.peek()] } : {}),
+    repair,
   };
-  const { glb, warnings } = await core.apply(model, program, how);
+  const exported = await core.apply(model, program, how);
   options.signal.throwIfAborted();
-  if (kind === 'animated') return { glb, warnings: isCut(model.files) ? [...warnings, uncut] : warnings };
+  if (kind === 'animated') {
+    const { warnings } = exported;
+    return { ...exported, warnings: isCut(model.files) ? [...warnings, uncut] : warnings };
+  }
   const { family } = document.peek();
   const setting = family === undefined ? null : families.settingNow(family);
-  return { glb: await cutExport(glb, document.peek(), setting, options), warnings };
+  return { ...exported, glb: await cutExport(exported.glb, document.peek(), setting, options) };
 }
 
 const uncut = 'What is cut changes with the slider: in this file its parts are whole.';
 
-/** @param asItStands turned and sized as it is shown; else as its file was */
-export async function exportModel(kind: 'all' | 'selected' | 'animated', asItStands = false): Promise<void> {
-  const { model } = document.peek();
+interface ExportChoice {
+  /** Turned and sized as it is shown; else as its file was. */
+  readonly asItStands?: boolean;
+  /** Whether gaps are closed, which is then said. */
+  readonly repair?: boolean;
+}
+
+export async function exportModel(
+  kind: ExportKind,
+  { asItStands = false, repair = false }: ExportChoice = {},
+): Promise<void> {
+  const { model, unit } = document.peek();
   const exported = await run('Writing the file', async (options) => {
-    const made = await editedFile(kind, options);
+    const made = await editedFile(kind, repair, options);
     if (made === null || model === null || asItStands) return made;
     return { ...made, glb: await asItsFile(model.files, made.glb, options) };
   });
-  if (exported === null) return;
+  if (exported === null || model === null) return;
   download(
     `${editedName(modelName())}${{ all: '', selected: '.part', animated: '.animated' }[kind]}.glb`,
     new Blob([exported.glb as BlobPart], { type: 'model/gltf-binary' }),
   );
-  if (exported.warnings.length > 0) say(exported.warnings.slice(0, 3).join(' '));
+  const said = [gapSentences(exported, model.shape, unit), ...exported.warnings.slice(0, 3)].filter(Boolean);
+  if (said.length > 0) say(said.join(' '));
 }
 
 /** The address of this page with the work in its fragment. */

@@ -199,10 +199,22 @@ export const methodSchemas = {
       values: v.array(v.number()),
       animate: v.optional(v.string()),
       morph: v.optional(v.boolean()),
+      /** Parts that the edit has pulled apart are made longer until they meet; not with animate or morph. */
+      repair: v.optional(v.boolean()),
       only: v.optional(v.array(v.string())),
     }),
     result: v.strictObject({
       warnings: v.array(v.strictObject({ place: v.string(), text: v.string() })),
+      /** With repair: how many gaps there were, what became longer, and what is open still. Metres. */
+      gaps: v.optional(
+        v.strictObject({
+          gaps: v.number(),
+          closed: v.array(v.strictObject({ relation: v.string(), part: v.string(), longer: v.number() })),
+          left: v.array(
+            v.strictObject({ relation: v.string(), parts: v.tuple([v.string(), v.string()]), width: v.number() }),
+          ),
+        }),
+      ),
       /** With morph: what the sliders are called in the file, and how exact they are. */
       sliders: v.optional(
         v.array(
