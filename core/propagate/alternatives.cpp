@@ -180,7 +180,8 @@ class Alternatives : public Attempt {
   static constexpr double cheaper_by = 1e-6;
 
   double total(const Problem& problem, const SearchState& state) const {
-    return state.cost + (is_pointless(graph_, request_, seeds_, feet_, state.edits) ? problem.options.prices.all_rigid : 0);
+    return state.cost +
+           (is_pointless(graph_, request_, seeds_, feet_, state.edits) ? problem.options.prices.all_rigid : 0);
   }
 
   std::set<PartIndex> neighbours_of(const std::set<PartIndex>& parts) const {

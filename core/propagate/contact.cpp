@@ -77,7 +77,8 @@ void add_rectangle(Contact& contact, const Corners& first, const Corners& second
   for (int i = 0; i < 2; ++i) {
     const Vec3& tangent = normals[along(1 + i)];
     const Extent of_first = extent_along(first, tangent), of_second = extent_along(second, tangent);
-    shared[static_cast<std::size_t>(i)] = {std::max(of_first.low, of_second.low), std::min(of_first.high, of_second.high)};
+    shared[static_cast<std::size_t>(i)] = {std::max(of_first.low, of_second.low),
+                                           std::min(of_first.high, of_second.high)};
   }
   const Vec3& normal = normals[along(0)];
   const Extent a = extent_along(first, normal), b = extent_along(second, normal);
@@ -87,8 +88,8 @@ void add_rectangle(Contact& contact, const Corners& first, const Corners& second
   const Eigen::FullPivLU<Mat3> solve(rows);
   for (std::size_t k = 0; k < 4; ++k) {
     const bool far_0 = k == 1 || k == 2, far_1 = k >= 2;  // around the rectangle
-    const Vec3 point = solve.solve(Vec3(level, far_0 ? shared[0].high : shared[0].low,
-                                        far_1 ? shared[1].high : shared[1].low));
+    const Vec3 point =
+        solve.solve(Vec3(level, far_0 ? shared[0].high : shared[0].low, far_1 ? shared[1].high : shared[1].low));
     contact.rectangle_first[k] = weights_in(first, point);
     contact.rectangle_second[k] = weights_in(second, point);
   }
@@ -112,7 +113,8 @@ bool is_hinged(const Contact& contact, const Corners& first, const Corners& seco
   const double most = 2 * std::sin(turn / 2) * contact.thickness;
   std::array<bool, 4> stays{};
   for (std::size_t k = 0; k < 4; ++k) {
-    const Vec3 apart = interpolate(contact.rectangle_first[k], first) - interpolate(contact.rectangle_second[k], second);
+    const Vec3 apart =
+        interpolate(contact.rectangle_first[k], first) - interpolate(contact.rectangle_second[k], second);
     stays[k] = apart.norm() <= most;
   }
   for (std::size_t k = 0; k < 4; ++k) {

@@ -21,7 +21,7 @@ struct Contact {
   std::array<double, 2> cover{};
   /// The corners of that common rectangle, around it, half way between the faces: their weights in either box.
   std::array<Weights, 4> rectangle_first, rectangle_second;
-  double thickness = 0;                 ///< least extent of the thinner box
+  double thickness = 0;                ///< least extent of the thinner box
   Mat3 normals_first, normals_second;  ///< of the faces at rest, as columns
 };
 

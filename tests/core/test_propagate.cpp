@@ -350,8 +350,8 @@ TEST_CASE("rows that hang on a row one on one change their number and their spac
       if (relation.is_attachment() && relation.parts[1] == *shape.find_part("cap_2"))
         relation.parts[1] = *shape.find_part("cap_3");
     }
-    const auto request = edit_request_from_json(
-        {{"seed", {{{"op", "change_count"}, {"relation", "t1"}, {"amount", "10*x"}}}}});
+    const auto request =
+        edit_request_from_json({{"seed", {{{"op", "change_count"}, {"relation", "t1"}, {"amount", "10*x"}}}}});
     const auto resolved = resolve(*request, crossed);
     REQUIRE(resolved.ok());
     CHECK(resolved->seed.size() == 1);
