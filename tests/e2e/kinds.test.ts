@@ -3,12 +3,15 @@
 import type { Page } from 'playwright-core';
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
+import { readRecordings, renderKinds } from '../../web/tools/prompts.mjs';
+import { call, loadModule } from '../web/module';
 import { serious } from './axe';
-import { openPage, useSite, withoutGallery } from './harness';
+import { openPage, useProviders, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
 const site = useSite();
+const providers = useProviders();
 
 async function open(button: RegExp, group: RegExp): Promise<{ page: Page; complaints: string[] }> {
   const { page, complaints } = await openPage(site.browser, `${site.url}?debug`, {}, withoutGallery);
@@ -53,6 +56,74 @@ describe('suggested kinds', () => {
     await expect.poll(() => variations().count()).toBe(before + 1);
     await page.getByRole('button', { name: 'Drop all suggested kinds' }).click();
     expect(await page.getByRole('region', { name: 'Suggested kinds' }).count()).toBe(0);
+    expect(complaints).toEqual([]);
+  });
+});
+
+/** Answers come from a server that stands for a provider. */
+async function useKey(page: Page): Promise<void> {
+  await page.getByRole('button', { name: /^Language model/ }).click();
+  await page.getByLabel('Provider').selectOption('openai');
+  await page.getByLabel('Base URL').fill(providers.base('openai'));
+  await page.getByLabel('Base URL').press('Tab');
+  await page.getByLabel('Key', { exact: true }).fill('sk-secret');
+  await page.getByLabel('Model', { exact: true }).fill('tester');
+  await page.getByLabel('Answers to each question').fill('3');
+  await page.getByLabel('Answers to each question').press('Tab');
+  await page.getByRole('button', { name: 'Done' }).click();
+}
+
+describe('with a key', () => {
+  it('kinds stream in, can be stopped and tried again, and one of your own is drawn', async () => {
+    const module = await loadModule();
+    const recordings = readRecordings();
+    const core = (method: string, parameters: unknown, buffers?: Uint8Array[]) =>
+      call<unknown>(module, method, parameters, buffers);
+    const known = renderKinds(core, recordings).flatMap(({ model, request, prompts: [prompt] }) => {
+      const reply = prompt && recordings.get(prompt.hash)?.replies[0]?.text;
+      return model === 'bottle_program' && prompt && reply ? [{ request, text: prompt.text, reply }] : [];
+    });
+    const numbers = known.find(({ request }) => request === 'milk bottle')?.reply ?? '';
+    /** The wine bottle's numbers never come while it is slow. */
+    const replay = (slow: boolean) =>
+      providers.behave(({ prompt }) => {
+        const found = known.find(({ text }) => prompt.startsWith(text));
+        const after = slow && found?.request === 'wine bottle' ? 60_000 : 0;
+        return { kind: 'reply', text: found?.reply ?? numbers, after };
+      });
+
+    const { page, complaints } = await open(/^Bottle$/, /OpenSCAD programs/);
+    await useKey(page);
+    replay(true);
+    const panel = page.getByRole('region', { name: 'Suggested kinds' });
+    await page.getByRole('button', { name: 'Suggest kinds' }).click();
+    await panel.getByText('Asking what they measure, 5 of 6').waitFor();
+    await panel.getByText('0 of 3 answers').waitFor();
+    await panel.getByRole('button', { name: 'Cancel' }).click();
+    await panel.getByText('Not drawn: it was stopped.').waitFor();
+    replay(false);
+    await panel.getByRole('button', { name: 'Try again' }).click();
+    await panel.getByText('6 drawn').waitFor();
+    await page.getByRole('textbox', { name: 'A kind to draw' }).fill('ink bottle');
+    await page.keyboard.press('Enter');
+    const own = panel.locator('.kind').filter({ has: page.getByRole('heading', { name: 'ink bottle' }) });
+    await own.getByRole('button', { name: 'Keep' }).click();
+    await page.getByRole('button', { name: 'Undo: keep “ink bottle”' }).waitFor();
+    expect(complaints).toEqual([]);
+  });
+
+  it('a picture with numbers goes along when names are asked for; senseless answers are said to be', async () => {
+    const { page, complaints } = await open(/^Floor lamp, nameless/, /Models without names/);
+    await useKey(page);
+    providers.behave(() => ({
+      kind: 'reply',
+      text: 'A lamp.\n```json\n{"category": "lamp", "front": "up", "parts": {}}\n```',
+    }));
+    await page.getByRole('button', { name: 'Suggest names for the parts' }).click();
+    const panel = page.getByRole('region', { name: 'Suggested names' });
+    await expect.poll(() => panel.getByRole('alert').textContent()).toMatch(/none of \+z, -z, \+x and -x/);
+    const bodies = providers.calls.slice(-3).map(({ body }) => JSON.stringify(body));
+    for (const body of bodies) expect(body).toContain('data:image/png;base64,iVBOR');
     expect(complaints).toEqual([]);
   });
 });

@@ -115,7 +115,7 @@ describe('parts apart', () => {
       return parsel.stage()?.projectMean(drawn) ?? { x: 0, y: 0 };
     }, leg);
     await page.mouse.click(at.x, at.y);
-    expect(await page.locator('.part.selected').textContent()).toContain(shape.parts[leg]?.name);
+    await expect.poll(() => page.locator('.part.selected').textContent()).toContain(shape.parts[leg]?.name);
     await page.screenshot({ path: `${outputFolder}/apart.png` });
     await page.keyboard.press('Escape');
     await page.getByRole('button', { name: 'Put the parts together' }).click();

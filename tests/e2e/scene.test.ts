@@ -148,12 +148,12 @@ describe('the cage on the graphics card', () => {
       }, part);
     const seat = await at('seat');
     await page.mouse.click(seat.x, seat.y);
-    expect(await page.locator('.part.selected').textContent()).toContain('seat');
+    await expect.poll(() => page.locator('.part.selected').textContent()).toContain('seat');
     await page.evaluate((key) => parsel.slide(key, 0.6), keys[1] as number);
     const leg = shape.parts.find(({ node }) => node === 2);
     const foot = await at(leg?.id ?? '');
     await page.mouse.click(foot.x, foot.y);
-    expect(await page.locator('.part.selected').textContent()).toContain(leg?.name);
+    await expect.poll(() => page.locator('.part.selected').textContent()).toContain(leg?.name);
     await page.screenshot({ path: `${outputFolder}/selected.png` });
     await page.keyboard.press('Escape');
     expect(await page.locator('.part.selected').count()).toBe(0);

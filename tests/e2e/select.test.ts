@@ -44,7 +44,7 @@ describe('several parts', () => {
       await page.mouse.click(x, y);
       await page.keyboard.up('Shift');
     }
-    expect((await selected()).sort()).toEqual(front.sort());
+    await expect.poll(async () => (await selected()).sort()).toEqual(front.sort());
     await page.getByRole('button', { name: 'All 4 like this' }).click();
     expect((await selected()).sort()).toEqual(legs().sort());
     await page.screenshot({ path: `${outputFolder}/several-light.png` });

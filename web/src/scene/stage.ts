@@ -29,6 +29,8 @@ export class Stage {
   #insets: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
   #frame = 0;
   #hasMetal = false;
+  /** A model was shown, and only its own shaders are compiled. */
+  #isCold = false;
   #actor: Actor | null = null;
   #state: State | null = null;
   /** As drawn: other than #state in the exploded view. */
@@ -93,6 +95,7 @@ export class Stage {
     actor.overlays.setColours({ accent: this.#accent, quiet: this.#quiet });
     this.#scene.add(actor.view.root, actor.view.extras, actor.overlays.root);
     this.#actor = actor;
+    this.#isCold = true;
     const materials = loaded.meshes.flatMap(({ mesh }) => mesh.material);
     const isMetal = (material: three.Material) => (material as three.MeshStandardMaterial).metalness > 0.1;
     if (!this.#hasMetal && materials.some(isMetal)) {
@@ -173,10 +176,12 @@ export class Stage {
   }
 
   /** @param x,y CSS pixels in the window */
-  pick(x: number, y: number): Hit | null {
-    if (this.#actor === null || this.#renderer.getContext().isContextLost()) return null;
+  async pick(x: number, y: number): Promise<Hit | null> {
+    const actor = this.#actor;
+    if (actor === null || this.#renderer.getContext().isContextLost()) return null;
     const { left, top } = this.canvas.getBoundingClientRect();
-    return this.#picker.pick(this.rig.camera, this.#actor.view, x - left, y - top);
+    const hit = await this.#picker.pick(this.rig.camera, actor.view, x - left, y - top);
+    return this.#actor === actor ? hit : null;
   }
 
   /** Where the mean of some points of the shape is on screen, CSS pixels in the window. */
@@ -315,7 +320,20 @@ export class Stage {
     this.#renderer.render(this.#scene, this.rig.camera);
     for (const listener of this.drawn) listener();
     if (moving) this.invalidate();
+    if (this.#isCold) void this.#warmUp();
   };
+
+  /** What is drawn later, over the model or to pick, has its shaders compiled before anybody waits for them. */
+  async #warmUp(): Promise<void> {
+    this.#isCold = false;
+    const actor = this.#actor;
+    if (actor === null) return;
+    void this.#renderer.compileAsync(this.#scene, this.rig.camera);
+    await this.#picker.warmUp(actor.view);
+    // What a shader is asked on its first use takes a while as well.
+    const idle = globalThis.requestIdleCallback ?? ((act: () => void) => setTimeout(act, 200));
+    idle(() => void (this.#actor === actor && this.pick(0, 0)));
+  }
 
   /** A room for metals to mirror. Filtering it takes a software renderer seconds, so only models with metal get it. */
   #reflect(): void {

@@ -18,11 +18,10 @@ export function whyUncarvable({ model, layers }: Document): string | null {
 }
 
 /** Keys of the real parts that some ids stand for. */
-export const keysOf = (shape: Shape, ids: readonly string[]): PartKey[] =>
-  realParts(shape, ids).flatMap((id) => {
-    const part = shape.parts.find((other) => other.id === id);
-    return part === undefined ? [] : [partKey(part)];
-  });
+export function keysOf(shape: Shape, ids: readonly string[]): PartKey[] {
+  const real = new Set(realParts(shape, ids));
+  return shape.parts.filter(({ id }) => real.has(id)).map(partKey);
+}
 
 const doing = {
   join: 'Joining the parts',
@@ -60,7 +59,7 @@ export async function carveModel(core: ModelCore, step: CarveStep, carve: Carver
 }
 
 const newKey = ({ moved }: Pick<CarvedFiles, 'moved'>, key: PartKey): PartKey =>
-  moved.find(([from]) => from === key)?.[1] ?? key;
+  moved.find(([from]) => from === key)?.[1] ?? key; // parts of one node: few
 
 /** What was said of the parts that are still there. */
 function onto(document: Document, model: OpenModel, found: CarvedFiles): Document {

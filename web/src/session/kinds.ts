@@ -195,6 +195,7 @@ export function createKinds({ session, models, sourceOf }: KindsParts): KindsAct
     if (core === null || model?.files.cad === undefined || name.trim() === '') return;
     const now = asked.peek();
     if (now?.isRunning) return;
+    state.peek()?.stop(); // of another model
     const run = newRun();
     const cards = now?.cards ?? [];
     const isNew = !cards.some((card) => card.name === name);

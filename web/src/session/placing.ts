@@ -41,9 +41,23 @@ type Box = readonly [low: number, high: number][];
 
 const boxOf = (corners: Corners): Box =>
   [0, 1, 2].map((axis) => {
-    const values = corners.map((corner) => corner[axis] ?? 0);
-    return [Math.min(...values), Math.max(...values)] as [number, number];
+    let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
+    for (const corner of corners) {
+      low = Math.min(low, corner[axis] ?? 0);
+      high = Math.max(high, corner[axis] ?? 0);
+    }
+    return [low, high] as [number, number];
   });
+
+/** What is read off a shape at rest, once. */
+function once<T>(read: (shape: Shape) => T): (shape: Shape) => T {
+  const known = new WeakMap<Shape, { readonly value: T }>();
+  return (shape) => {
+    const found = known.get(shape) ?? { value: read(shape) };
+    known.set(shape, found);
+    return found.value;
+  };
+}
 
 /** Feet are narrower than this share of the whole, across what they stand on. */
 const narrow = 0.35;
@@ -81,7 +95,7 @@ function feet(boxes: readonly Box[], whole: Box, up: Direction): number {
  * The direction of the model, as it stands, that seems to be up where +y does not: the one that it has feet for, and
  * mirror images do not speak against. Null where it stands well, or nobody can say.
  */
-export function seemsUp(shape: Shape): Direction | null {
+export const seemsUp = once((shape): Direction | null => {
   const real = shape.parts.filter(({ virtual }) => !virtual);
   if (real.length < 4) return null;
   const boxes = real.map(({ corners }) => boxOf(corners));
@@ -94,7 +108,7 @@ export function seemsUp(shape: Shape): Direction | null {
   const normals = shape.relations.filter(isReflection).map(({ normal }) => normal);
   const across = normals.filter((normal) => Math.abs(normal[0] * x + normal[1] * y + normal[2] * z) > 0.9).length;
   return across > normals.length / 2 ? null : first.up;
-}
+});
 
 /** Things that people make or sit on are between these, in metres, along their longest side. */
 const usual = { least: 0.02, most: 15 };
@@ -108,10 +122,10 @@ export const fileUnits = [
 ] as const;
 
 /** Along x, y and z, in metres, at rest. */
-export function extentOf({ parts, frame }: Shape): [number, number, number] {
+export const extentOf = once(({ parts, frame }): [number, number, number] => {
   const box = boxOf(parts.filter(({ virtual }) => !virtual).flatMap(({ corners }) => corners));
   return box.map(([low, high]) => (high - low) * frame.scale) as [number, number, number];
-}
+});
 
 /** The unit that the file seems to be drawn in, where it is too large or too small for one in metres; else null. */
 export function seemsDrawnIn(shape: Shape, now: Placing): number | null {

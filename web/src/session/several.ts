@@ -15,8 +15,12 @@ export function realParts(shape: Shape, ids: Iterable<string>): string[] {
 export function alike(shape: Shape, part: string): string[] {
   const real = new Map(shape.parts.map(({ id, virtual, members }) => [id, virtual ? members : [id]] as const));
   /** Parts that are alike: of one label, of one relation. */
-  const kinds = new Map<unknown, readonly string[]>();
-  for (const { id, label, virtual } of shape.parts) if (!virtual) kinds.set(label, [...(kinds.get(label) ?? []), id]);
+  const kinds = new Map<unknown, string[]>();
+  for (const { id, label, virtual } of shape.parts) {
+    const same = kinds.get(label);
+    if (same !== undefined && !virtual) same.push(id);
+    else if (!virtual) kinds.set(label, [id]);
+  }
   for (const relation of shape.relations)
     if (isReflection(relation) || isGroup(relation))
       kinds.set(
@@ -24,7 +28,12 @@ export function alike(shape: Shape, part: string): string[] {
         relation.parts.flatMap((id) => real.get(id) ?? []),
       );
   const kindsOf = new Map<string, unknown[]>();
-  for (const [kind, ids] of kinds) for (const id of ids) kindsOf.set(id, [...(kindsOf.get(id) ?? []), kind]);
+  for (const [kind, ids] of kinds)
+    for (const id of ids) {
+      const own = kindsOf.get(id);
+      if (own === undefined) kindsOf.set(id, [kind]);
+      else own.push(kind);
+    }
 
   const found = new Set(real.get(part) ?? []);
   const seen = new Set<unknown>();

@@ -1,11 +1,12 @@
 // What was found in the model, in one line, with a way to what is loose.
+import { useMemo } from 'preact/hooks';
 import type { Shape } from '../program/types';
 import { inventoryOf, inventoryWords } from '../session/inventory';
 import { selectAll } from '../session/session';
 import { focusView } from './view';
 
 export function Found({ shape }: { shape: Shape }) {
-  const found = inventoryOf(shape);
+  const found = useMemo(() => inventoryOf(shape), [shape]);
   const { loose } = found;
   return (
     <div class="found">

@@ -15,14 +15,16 @@ export function SelectionBar({ shape, onEdit }: { shape: Shape; onEdit: () => vo
   if (first === undefined) return null;
   const real = realParts(shape, ids);
   const like = alike(shape, first);
+  const firstNames = ids.slice(0, 4).map((id) => nameOf(document.value, id));
   const { hidden } = document.value;
-  const isAlone = shape.parts.every(({ id, virtual }) => virtual || real.includes(id) !== hidden.has(id));
+  const isReal = new Set(real);
+  const isAlone = shape.parts.every(({ id, virtual }) => virtual || isReal.has(id) !== hidden.has(id));
   return (
     <section class="selection" aria-label="Selection">
       {ids.length > 1 && (
         <h3>
           {real.length} parts selected
-          <span class="quiet">{listWords(ids.map((id) => nameOf(document.value, id)))}</span>
+          <span class="quiet">{listWords(firstNames, 3, ids.length)}</span>
         </h3>
       )}
       <div class="chips">
@@ -67,7 +69,6 @@ export function SelectionBar({ shape, onEdit }: { shape: Shape; onEdit: () => vo
 function ByHand({ shape, ids, real }: { shape: Shape; ids: readonly string[]; real: readonly string[] }) {
   const why = whyUncarvable(document.value);
   const isOff = why !== null || models.value === null || task.value !== null || cutting.value !== null;
-  const [key = ''] = keysOf(shape, real);
   const carve = (step: Parameters<typeof carveModel>[1]) => {
     if (models.value !== null) void carveModel(models.value, step);
   };
@@ -89,7 +90,7 @@ function ByHand({ shape, ids, real }: { shape: Shape; ids: readonly string[]; re
           class="chip-button"
           disabled={isOff}
           title={why ?? 'Pieces of it that do not hang together become parts of their own'}
-          onClick={() => carve({ kind: 'divide', part: key })}
+          onClick={() => carve({ kind: 'divide', part: keysOf(shape, real)[0] ?? '' })}
         >
           Split into pieces
         </button>

@@ -32,6 +32,7 @@ export function StageView({ insets, pickKind }: StageViewProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const pressed = useRef<{ x: number; y: number } | null>(null);
   const hoverFrame = useRef(0);
+  const hovering = useRef(0); // counts moves: an answer to an earlier one comes too late
   useEffect(() => (canvas.current === null ? undefined : mountStage(canvas.current)), []);
 
   const { left, right, top, bottom } = insets;
@@ -41,8 +42,8 @@ export function StageView({ insets, pickKind }: StageViewProps) {
     if (stage.value?.rig.isFramed) stage.value.fit(null);
   }, [left, right, top, bottom, stage.value]);
 
-  const partAt = (x: number, y: number) => {
-    const hit = stage.peek()?.pick(x, y) ?? null;
+  const partAt = async (x: number, y: number) => {
+    const hit = (await stage.peek()?.pick(x, y)) ?? null;
     const id = hit && document.peek().model?.shape.parts[hit.part]?.id;
     return hit && id !== undefined && id !== null ? { id, local: hit.local } : null;
   };
@@ -57,17 +58,17 @@ export function StageView({ insets, pickKind }: StageViewProps) {
         onPointerDown={(event) => {
           pressed.current = event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
         }}
-        onPointerUp={(event) => {
+        onPointerUp={async (event) => {
           const start = pressed.current;
           pressed.current = null;
           if (start === null || Math.hypot(event.clientX - start.x, event.clientY - start.y) > dragThreshold) return;
-          const hit = partAt(event.clientX, event.clientY);
+          const adds = event.shiftKey || event.ctrlKey || event.metaKey || several.peek();
+          const hit = await partAt(event.clientX, event.clientY);
           if (ruler.peek() !== null) {
             if (hit !== null) setPoint(hit.id, hit.local);
             return;
           }
           const kind = pickKind.peek() ?? 'whole';
-          const adds = event.shiftKey || event.ctrlKey || event.metaKey || several.peek();
           if (adds && hit !== null) selectAlso(hit.id);
           else if (adds) return;
           else if (hit === null) select(null);
@@ -79,12 +80,15 @@ export function StageView({ insets, pickKind }: StageViewProps) {
           if (event.buttons !== 0 || event.pointerType === 'touch') return;
           const { clientX, clientY } = event;
           cancelAnimationFrame(hoverFrame.current);
-          hoverFrame.current = requestAnimationFrame(() => {
-            hovered.value = partAt(clientX, clientY)?.id ?? null;
+          const own = ++hovering.current;
+          hoverFrame.current = requestAnimationFrame(async () => {
+            const hit = await partAt(clientX, clientY);
+            if (own === hovering.current) hovered.value = hit?.id ?? null;
           });
         }}
         onPointerLeave={() => {
           cancelAnimationFrame(hoverFrame.current);
+          hovering.current++;
           hovered.value = null;
         }}
       />

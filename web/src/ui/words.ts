@@ -163,9 +163,9 @@ export function whyWords(document: Document, statement: Statement): string {
   }
 }
 
-export function listWords(names: readonly string[], most = 3): string {
+export function listWords(names: readonly string[], most = 3, count = names.length): string {
   const shown = names.slice(0, most);
-  const rest = names.length - shown.length;
+  const rest = count - shown.length;
   if (rest > 0) return `${shown.join(', ')} and ${rest} more`;
   const last = shown.pop();
   return shown.length > 0 ? `${shown.join(', ')} and ${last}` : (last ?? '');
