@@ -29,7 +29,7 @@ function run(...args) {
 
 const kinds = {
   'inspect a chair': [1000, () => ({ model: 'chair.glb' })],
-  'widen, check and apply': [
+  'widen and check and apply': [
     200,
     (i) => ({
       model: ['chair.glb', 'desk.glb', 'bookcase.glb', 'bed.glb'][i % 4],
@@ -50,7 +50,7 @@ try {
       const before = childTime();
       const output = `${kind}-${workers}`;
       const { perSecond } = JSON.parse(run('batch', 'jobs.jsonl', '-o', output, '--workers', String(workers)));
-      const name = `${count} x ${kind.replaceAll(',', ' and')} / ${workers} worker${workers > 1 ? 's' : ''}`;
+      const name = `${count} x ${kind} / ${workers} worker${workers > 1 ? 's' : ''}`;
       print(name, 'jobs_per_s', perSecond);
       print(name, 'cpu_ms', ((childTime() - before) / count).toFixed(1));
       print(name, 'load', load.toFixed(1));

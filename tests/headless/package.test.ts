@@ -72,7 +72,7 @@ describe('the package', { timeout: 120_000 }, () => {
     expect(theirs?.stdout.startsWith(ours?.stdout ?? '?')).toBe(true);
     for (const args of [
       ['gallery', '.'],
-      ['inspect', 'chair.glb'],
+      ['inspect', 'chair.glb', '--words'],
       ['inspect', 'absent.glb'],
       ['apply'],
       ['nothing'],
