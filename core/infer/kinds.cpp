@@ -56,9 +56,8 @@ std::string fault_of(const cad::Model& model, const json& item, Kind& kind) {
     if (!id.is_string() || model.find(id.get_ref<const std::string&>()) == nullptr) {
       return "it lacks a part that the program does not have";
     }
-    if (std::find(kind.absent.begin(), kind.absent.end(), id) == kind.absent.end()) {
-      kind.absent.push_back(id.get<std::string>());
-    }
+    const auto& part = id.get_ref<const std::string&>();
+    if (std::find(kind.absent.begin(), kind.absent.end(), part) == kind.absent.end()) kind.absent.push_back(part);
   }
   return kind.absent.size() == model.parts.size() ? "it has none of the parts" : "";
 }

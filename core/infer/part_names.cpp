@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "core/base/text.h"
 #include "core/edit/program_fields.h"
@@ -21,8 +22,6 @@ using nlohmann::json;
 
 /// A row of more is named once: prompt and reply would be nothing but its instances.
 constexpr std::size_t most_listed_instances = 8;
-/// Parts that a prompt may list; a reply names as many.
-constexpr std::size_t most_named = 200;
 constexpr std::size_t longest_name = 60;
 constexpr std::array fronts = {"+z", "-z", "+x", "-x"};
 const std::string prefix = "part_";
@@ -105,10 +104,10 @@ Result<SuggestedNames> names_of(const Shape& shape, const json& block) {
   if (!category.ok()) return category.error();
   names.category = printable(lower_case(*category), longest_name);
   const json& front = member(block, {"front"});
-  if (std::find(fronts.begin(), fronts.end(), front) == fronts.end()) {
+  if (front.is_string()) names.front = front.get<std::string>();
+  if (std::find(fronts.begin(), fronts.end(), names.front) == fronts.end()) {
     return reply_refused("/front", "it is none of +z, -z, +x and -x", "say which side is the front");
   }
-  names.front = front.get<std::string>();
   const json& parts = member(block, {"parts", "names"});
   if (!parts.is_object()) return reply_refused("/parts", "it is no object of names by part", form);
   names.labels.resize(named_parts(shape).size());

@@ -137,6 +137,10 @@ Result<Prompt> make_prompt(const Shape& shape, const EditWish& wish, const Task&
     return Error{stage, "relation", "the task " + std::string(task.name) + " asks about one relation",
                  "name a relation, such as r1 or t1"};
   }
+  if (task.numbered != nullptr && task.numbered(shape).size() > most_numbered) {
+    return Error{stage, "", "the model has more than " + std::to_string(most_numbered) + " parts to be listed",
+                 "ask about a model of fewer, or split it more coarsely"};
+  }
   const Result<std::vector<PartIndex>> parts = mentioned_parts(shape, wish);
   if (!parts.ok()) return parts.error();
   std::string mentioned;

@@ -23,6 +23,9 @@ struct EditWish {
   bool picture = false;                ///< of the model, with numbers on its parts, goes along with the prompt
 };
 
+/// Parts that a prompt may list under numbers; a reply says something of each.
+inline constexpr std::size_t most_numbered = 200;
+
 /// What stands under the number i + 1 in the picture that goes along with a task's prompt: the active parts, or those
 /// that the task numbers.
 std::vector<PartIndex> numbered_parts(const Shape& shape, const Task& task);

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/random.h"
 #include "core/base/text.h"
 #include "core/gallery/gallery.h"
 #include "core/infer/inference.h"
@@ -73,6 +74,20 @@ TEST_CASE("a row of many is named once, a short one part by part") {
   CHECK(is_virtual(few) == 0);
   CHECK(is_virtual(many) == 1);
   CHECK(describe_nameless(many).find("12 parts at equal distances") != std::string::npos);
+}
+
+TEST_CASE("a model of too many different parts is refused") {
+  Random random(18);
+  std::vector<fixture::Named> parts;
+  for (int i = 0; i < 210; ++i) {
+    const Vec3 size(random.uniform(0.2, 3), random.uniform(0.2, 3), random.uniform(0.2, 3));
+    parts.push_back({"thing", fixture::box({random.uniform(0, 200), size[1] / 2, random.uniform(0, 200)}, size)});
+  }
+  const Shape many = fixture::shape(parts);
+  REQUIRE(named_parts(many).size() > most_numbered);
+  const auto prompt = make_prompt(many, {}, part_names_task);
+  REQUIRE_FALSE(prompt.ok());
+  CHECK(prompt.error().cause == "the model has more than 200 parts to be listed");
 }
 
 TEST_CASE("the prompt for names is about the model alone, and is no part of a request's prompts") {

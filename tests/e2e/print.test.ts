@@ -148,7 +148,7 @@ describe('a model for printing', () => {
     await page.getByRole('button', { name: 'Export' }).click();
     const [event] = await Promise.all([
       page.waitForEvent('download'),
-      page.getByRole('menuitem', { name: 'Edited model, gaps closed' }).click(),
+      page.getByRole('menuitem', { name: 'Edited, gaps closed' }).click(),
     ]);
     const parts = await partsOf(new Uint8Array(await readFile(await event.path())), new Map());
     const top = (name: string) =>

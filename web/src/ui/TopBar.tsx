@@ -33,7 +33,7 @@ function exportItems(): MenuItem[] {
         ]
       : []),
     {
-      label: 'Edited model, gaps closed',
+      label: 'Edited, gaps closed',
       hint: '.glb',
       disabled: noLayer,
       act: () => void exportModel('all', { repair: true }),
