@@ -6,8 +6,9 @@ import { fileURLToPath } from 'node:url';
 
 const web = join(dirname(fileURLToPath(import.meta.url)), '../web');
 const src = join(web, 'src');
-/** The package that others install; its rooms are named from here. */
+/** The packages that others install; their rooms are named from here. */
 const runtime = '../runtime/src/';
+const headless = '../headless/src/';
 
 /** room: the rooms, or single files of them, and the packages that it may import, and why. */
 const rooms = {
@@ -76,12 +77,14 @@ const rooms = {
     packages: [],
     rule: 'the element shows a model on the stage of the page; of three.js it knows what scene makes of it',
   },
+  headless: { may: [], packages: [], rule: 'headless runs the command line under Node and knows nothing of the page' },
 };
 
 const imported = /\b(?:from|import)\s*\(?\s*'([^']+)'/g;
 
 /** "scene" of scene/cage.ts, "runtime/three" of ../runtime/src/three/solid.ts. */
 function roomOf(path) {
+  if (path.startsWith(headless)) return 'headless';
   if (!path.startsWith(runtime)) return path.split('/')[0];
   const [folder, file] = path.slice(runtime.length).split('/');
   return file === undefined ? 'runtime' : `runtime/${folder}`;
@@ -112,7 +115,7 @@ export function importFaults(file, text) {
 
 if (argv[1] === fileURLToPath(import.meta.url)) {
   const filesOf = (folder) => readdirSync(join(src, folder), { recursive: true, encoding: 'utf8' });
-  const files = ['', runtime]
+  const files = ['', runtime, headless]
     .flatMap((folder) => filesOf(folder).map((file) => folder + file))
     .filter((file) => /\.tsx?$/.test(file));
   const faults = files.flatMap((file) => importFaults(file, readFileSync(join(src, file), 'utf8')));

@@ -16,7 +16,9 @@ if ! has chromium && ! has google-chrome; then
   fi
   need "chromium chromium"
 fi
-need "openscad openscad"
+need "openscad openscad
+blender blender
+redis-server redis-server"
 "$root/web/start.sh" --build-only
 need_node
 

@@ -66,7 +66,7 @@ export function licences(): string {
 }
 
 /** What the page was built from, as a .tar.gz: as it stands in the working tree, without what the build makes. */
-function source(): Uint8Array {
+export function source(): Uint8Array {
   const run = (command: string, ...args: string[]) =>
     execFileSync(command, args, { cwd: root, maxBuffer: 256 * 2 ** 20, stdio: ['ignore', 'pipe', 'ignore'] });
   // In a checkout git knows what belongs to it; without one, the folder is what was handed on.

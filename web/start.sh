@@ -30,6 +30,7 @@ node "$root/web/tools/gallery.mjs" || die "The gallery could not be written; the
 node "$root/web/tools/recordings.mjs" || die "The recorded replies could not be written; the lines above say why."
 say "Building the page"
 (cd "$root/web" && npm run --silent build -- --logLevel warn) || die "Building the page failed; the lines above say why."
+npm --prefix "$root/web" run --silent headless || die "Building the package of the command line failed; the lines above say why."
 node "$root/web/tools/sizes.mjs"
 echo "The page is in web/dist: a static site for any server and any path."
 $build_only && exit

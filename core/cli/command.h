@@ -3,6 +3,7 @@
 // Exit codes: 0 done, 1 input refused (one line on stderr: stage, place, cause, fix), 2 usage.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -51,6 +52,8 @@ Status may_write(const Arguments& arguments, const std::string& option);
 
 Result<std::string> read_file(const std::string& path);
 Status write_file(const std::string& path, std::string_view bytes);
+/// Writes beside the path first: a file under its own name is whole.
+Status write_whole(const std::filesystem::path& path, std::string_view bytes);
 /// JSON to `-o` when given, else to stdout.
 int write_json(const Arguments& arguments, const nlohmann::json& json);
 

@@ -11,6 +11,7 @@ extern const Command evaluate_command;
 extern const Command family_command;
 extern const Command gallery_command;
 extern const Command inspect_command;
+extern const Command job_command;
 extern const Command offers_command;
 extern const Command prompt_command;
 extern const Command propagate_command;
@@ -21,10 +22,10 @@ extern const Command score_command;
 extern const Command split_command;
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all = {inspect_command, offers_command,    read_command,    prompt_command,
-                                           reply_command,   propagate_command, apply_command,   sample_command,
-                                           check_command,   score_command,     convert_command, evaluate_command,
-                                           cad_command,     family_command,    split_command,   gallery_command};
+  static const std::vector<Command> all = {
+      inspect_command, offers_command, read_command,  prompt_command, reply_command,   propagate_command,
+      apply_command,   sample_command, check_command, score_command,  convert_command, evaluate_command,
+      cad_command,     family_command, split_command, job_command,    gallery_command};
   return all;
 }
 

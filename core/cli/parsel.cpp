@@ -1,12 +1,12 @@
 // The `parsel` command-line tool: finds the command, parses its options, runs it.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/cli/command.h"
 
@@ -49,13 +49,20 @@ Result<std::string> read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return Error{"cli", path, "the file cannot be opened", "check the path and its permissions"};
   std::error_code unknown;  // of a pipe, which is then read to its end
-  if (const auto size = std::filesystem::file_size(path, unknown); !unknown && size > largest_file) {
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  if (!unknown && size > largest_file) {
     return Error{"cli", path, "the file is larger than 1 GiB", "simplify the model, or give another file"};
   }
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  if (!file.good() && !file.eof()) return Error{"cli", path, "reading failed", "check that it is a file, not a folder"};
-  return std::move(bytes).str();
+  // Into a string and not through a stream, which would keep to itself that memory ended.
+  std::string bytes;
+  if (!unknown) bytes.reserve(static_cast<std::size_t>(size));
+  std::array<char, 1 << 16> chunk;
+  do {
+    file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    bytes.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+  } while (file);
+  if (!file.eof()) return Error{"cli", path, "reading failed", "check that it is a file, not a folder"};
+  return bytes;
 }
 
 Status write_file(const std::string& path, std::string_view bytes) {
@@ -64,6 +71,17 @@ Status write_file(const std::string& path, std::string_view bytes) {
   file.close();
   if (!file) return Error{"cli", path, "the file cannot be written", "check that the folder exists and has space"};
   return success();
+}
+
+Status write_whole(const std::filesystem::path& path, std::string_view bytes) {
+  const std::string beside = path.string() + ".part";
+  const Status written = write_file(beside, bytes);
+  std::error_code fault;
+  if (written) std::filesystem::rename(beside, path, fault);
+  if (written && !fault) return success();
+  std::error_code ignored;
+  std::filesystem::remove(beside, ignored);
+  return written ? Status(Error{"cli", path.string(), "the file cannot be written", fault.message()}) : written;
 }
 
 int write_json(const Arguments& arguments, const nlohmann::json& json) {
@@ -138,11 +156,14 @@ int run(int argc, char** argv) {
 }  // namespace parsel::cli
 
 int main(int argc, char** argv) {
+  int code = parsel::cli::exit_refused;
   try {
-    return parsel::cli::run(argc, argv);
+    code = parsel::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {
-    return parsel::cli::refuse({"cli", "", "there is not enough memory for this input", "try a smaller model"});
+    code = parsel::cli::refuse({"cli", "", "there is not enough memory for this input", "try a smaller model"});
   } catch (const std::exception& error) {
-    return parsel::cli::refuse({"cli", "", std::string("internal error: ") + error.what(), "please report it"});
+    code = parsel::cli::refuse({"cli", "", std::string("internal error: ") + error.what(), "please report it"});
   }
+  std::cout.flush();  // a module that goes on living when this returns flushes nothing by itself
+  return code;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 #include "core/base/json.h"
 
@@ -23,6 +24,24 @@ Result<ProgramFile> load_program(const std::string& path) {
   return ProgramFile{std::move(*program), ProgramForm::json};
 }
 
+Status set_value(const Program& program, const std::string& parameter, double value, const std::string& place,
+                 std::vector<double>& values) {
+  std::string known;
+  for (std::size_t i = 0; i < program.layers.size(); ++i) {
+    const Parameter& p = program.layers[i].parameter;
+    known += (known.empty() ? "" : ", ") + p.name;
+    if (p.name != parameter) continue;
+    if (!(value >= p.min && value <= p.max)) {
+      std::ostringstream range;
+      range << "stay within " << p.min << " and " << p.max;
+      return Error{"cli", place, "the value is outside the parameter's range", range.str()};
+    }
+    values[i] = value;
+    return success();
+  }
+  return Error{"cli", place, "no layer has this parameter", known.empty() ? "leave it out" : "name one of " + known};
+}
+
 Result<std::vector<double>> parameter_values(const Program& program, const Arguments& arguments) {
   std::vector<double> values;
   for (const Layer& layer : program.layers) values.push_back(layer.parameter.value);
@@ -30,20 +49,14 @@ Result<std::vector<double>> parameter_values(const Program& program, const Argum
   for (auto option = first; option != last; ++option) {
     const std::string& text = option->second;
     const std::size_t equals = text.find('=');
-    const std::string name = text.substr(0, equals);
     const std::string number = equals == std::string::npos ? "" : text.substr(equals + 1);
-    std::size_t found = 0;
-    while (found < values.size() && program.layers[found].parameter.name != name) ++found;
-    if (found == values.size())
-      return Error{"cli", "--set " + text, "no layer has this parameter", "write --set x1=0.2"};
     char* end = nullptr;
-    values[found] = std::strtod(number.c_str(), &end);
-    if (number.empty() || *end != '\0' || !std::isfinite(values[found])) {
+    const double value = std::strtod(number.c_str(), &end);
+    if (number.empty() || *end != '\0' || !std::isfinite(value)) {
       return Error{"cli", "--set " + text, "there should be a number after =", "write --set x1=0.2"};
     }
-    const Parameter& p = program.layers[found].parameter;
-    if (values[found] < p.min || values[found] > p.max) {
-      return Error{"cli", "--set " + text, "the value is outside the parameter's range", "stay within min and max"};
+    if (const Status set = set_value(program, text.substr(0, equals), value, "--set " + text, values); !set) {
+      return set.error();
     }
   }
   return values;

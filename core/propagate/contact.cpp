@@ -1,8 +1,11 @@
 #include "core/propagate/contact.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/shape/hexahedron.h"
 
 namespace parsel {
 
@@ -46,6 +49,80 @@ double common(const Extent& a, const Extent& b) {
   return std::min(a.high, b.high) - std::max(a.low, b.low);
 }
 
+double least_extent(const Corners& corners, const Frame3& normals) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& normal : normals) least = std::min(least, extent_along(corners, normal).length());
+  return least;
+}
+
+/// The weights of a point in a box at rest.
+Weights weights_in(const Corners& box, const Vec3& point) {
+  Mat3 halves;  // half the edges, as columns
+  for (int axis = 0; axis < 3; ++axis) halves.col(axis) = (box.row(1 << axis) - box.row(0)).transpose() / 2;
+  const Vec3 centre = box.colwise().mean().transpose();
+  return trilinear_weights(halves.fullPivLu().solve(point - centre));
+}
+
+Mat3 as_columns(const Frame3& normals) {
+  Mat3 columns;
+  for (int axis = 0; axis < 3; ++axis) columns.col(axis) = normals[static_cast<std::size_t>(axis)];
+  return columns;
+}
+
+/// Fills in the rectangle that the boxes have in common across the contact's normal.
+void add_rectangle(Contact& contact, const Corners& first, const Corners& second) {
+  const Frame3 normals = face_normals(contact.of_first ? first : second);
+  const auto along = [&](int i) { return static_cast<std::size_t>((contact.axis + i) % 3); };
+  std::array<Extent, 2> shared;
+  for (int i = 0; i < 2; ++i) {
+    const Vec3& tangent = normals[along(1 + i)];
+    const Extent of_first = extent_along(first, tangent), of_second = extent_along(second, tangent);
+    shared[static_cast<std::size_t>(i)] = {std::max(of_first.low, of_second.low),
+                                           std::min(of_first.high, of_second.high)};
+  }
+  const Vec3& normal = normals[along(0)];
+  const Extent a = extent_along(first, normal), b = extent_along(second, normal);
+  const double level = contact.side > 0 ? (a.high + b.low) / 2 : (a.low + b.high) / 2;
+  Mat3 rows;
+  for (int i = 0; i < 3; ++i) rows.row(i) = normals[along(i)].transpose();
+  const Eigen::FullPivLU<Mat3> solve(rows);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool far_0 = k == 1 || k == 2, far_1 = k >= 2;  // around the rectangle
+    const Vec3 point =
+        solve.solve(Vec3(level, far_0 ? shared[0].high : shared[0].low, far_1 ? shared[1].high : shared[1].low));
+    contact.rectangle_first[k] = weights_in(first, point);
+    contact.rectangle_second[k] = weights_in(second, point);
+  }
+  const Frame3 normals_first = face_normals(first), normals_second = face_normals(second);
+  contact.thickness = std::min(least_extent(first, normals_first), least_extent(second, normals_second));
+  contact.normals_first = as_columns(normals_first);
+  contact.normals_second = as_columns(normals_second);
+}
+
+/// A turn by less than this, in radians, is none.
+constexpr double least_turn = 1e-3;
+
+/// Whether the boxes have turned about an edge of what they had in common.
+bool is_hinged(const Contact& contact, const Corners& first, const Corners& second) {
+  const Mat3 turn_first = as_columns(face_normals(first)) * contact.normals_first.transpose();
+  const Mat3 turn_second = as_columns(face_normals(second)) * contact.normals_second.transpose();
+  const double cosine = ((turn_first.transpose() * turn_second).trace() - 1) / 2;
+  const double turn = std::acos(std::clamp(cosine, -1.0, 1.0));
+  if (turn < least_turn) return false;
+  // A point at a distance r of the axis has moved by 2 r sin(turn/2).
+  const double most = 2 * std::sin(turn / 2) * contact.thickness;
+  std::array<bool, 4> stays{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 apart =
+        interpolate(contact.rectangle_first[k], first) - interpolate(contact.rectangle_second[k], second);
+    stays[k] = apart.norm() <= most;
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (stays[k] && stays[(k + 1) % 4]) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<Contact> contact_of(const Corners& first, const Corners& second) {
@@ -60,7 +137,11 @@ std::optional<Contact> contact_of(const Corners& first, const Corners& second) {
       if (overlap > deep * std::min(a.length(), b.length())) continue;
       if (best && overlap >= least - 1e-9) continue;
       least = overlap;
-      best = Contact{of_first, axis, b.middle() >= a.middle() ? 1 : -1, -overlap, {}};
+      best.emplace();
+      best->of_first = of_first;
+      best->axis = axis;
+      best->side = b.middle() >= a.middle() ? 1 : -1;
+      best->distance = -overlap;
       for (int i = 0; i < 2; ++i) {
         const Vec3& tangent = normals[static_cast<std::size_t>((axis + 1 + i) % 3)];
         best->cover[static_cast<std::size_t>(i)] =
@@ -68,6 +149,7 @@ std::optional<Contact> contact_of(const Corners& first, const Corners& second) {
       }
     }
   }
+  if (best) add_rectangle(*best, first, second);
   return best;
 }
 
@@ -76,7 +158,7 @@ ContactChange change_of(const Contact& contact, const Corners& first, const Corn
   const Vec3& normal = normals[static_cast<std::size_t>(contact.axis)];
   const Extent a = extent_along(first, normal), b = extent_along(second, normal);
   const double distance = contact.side > 0 ? b.low - a.high : a.low - b.high;
-  ContactChange change{distance - contact.distance, 0};
+  ContactChange change{distance - contact.distance, 0, is_hinged(contact, first, second)};
   for (std::size_t i = 0; i < 2; ++i) {
     const Vec3& tangent = normals[(static_cast<std::size_t>(contact.axis) + 1 + i) % 3];
     const Extent along_a = extent_along(first, tangent), along_b = extent_along(second, tangent);

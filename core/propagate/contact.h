@@ -19,6 +19,10 @@ struct Contact {
   double distance = 0;   ///< along the normal, at rest; negative where they overlap
   /// Length of the boxes' common extent along the two other axes, at rest.
   std::array<double, 2> cover{};
+  /// The corners of that common rectangle, around it, half way between the faces: their weights in either box.
+  std::array<Weights, 4> rectangle_first, rectangle_second;
+  double thickness = 0;                ///< least extent of the thinner box
+  Mat3 normals_first, normals_second;  ///< of the faces at rest, as columns
 };
 
 /// Nothing where one of the boxes lies so deep in the other that no face can be told to touch.
@@ -28,6 +32,9 @@ std::optional<Contact> contact_of(const Corners& first, const Corners& second);
 struct ContactChange {
   double apart = 0;  ///< by how much the distance grew; negative where the parts entered each other
   double lost = 0;   ///< share of the common extent that is gone, 0 … 1, the worse of the two directions
+  /// The parts turn about an edge of what they had in common, as a door on its hinges or a lid: off it by no more than
+  /// the thickness of the thinner one, as hinges are.
+  bool hinged = false;
 };
 ContactChange change_of(const Contact& contact, const Corners& first, const Corners& second);
 

@@ -83,6 +83,7 @@ double price_of_relation(const Prices& prices, const Relation& relation, double 
     return residual <= tolerance ? std::min(slides, prices.slack * residual) : slides;
   }
   if (residual <= tolerance) return prices.slack * residual + seen;
+  if (change && change->hinged) return prices.hinge;
   return prices.broken_joint + prices.broken_by * std::min(residual, 0.2);
 }
 

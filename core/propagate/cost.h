@@ -23,12 +23,19 @@ struct Prices {
   double slide = 3;
   /// … on top, for the share of the contact that is gone.
   double slide_lost = 4;
+  /// A joint that turns about an edge of its contact: what a door or a lid does. Cheaper than to slide, dearer than what
+  /// keeps the whole joint.
+  double hinge = 1.5;
   double broken_mirror = 4;
   /// Mirror images one above the other: what stands on the floor grows away from it, and its upper half is seldom asked
   /// to do the opposite of the lower one.
   double broken_stacked_mirror = 1;
   /// Feet that leave the floor or sink into it.
   double broken_ground = 5;
+  /// What stands on the floor and is moved to another place, for its share of the shape's extent there: a leg goes where
+  /// its table needs it, a whole cabinet does not follow its door. Below 4 it does; above 8 the pedestals of a desk stay
+  /// when its top grows.
+  double dragged = 6;
   /// A relation that is off by less than its tolerance: for each half-diagonal.
   double slack = 60;
   /// A joint that holds at its points while the surfaces part or enter each other: at once, and for each half-diagonal.
@@ -43,7 +50,8 @@ struct Prices {
   double against_hint = 30;
   /// Staying at rest in spite of a hint.
   double rest_against_hint = 6;
-  /// A rigid motion of everything: no answer.
+  /// A rigid motion of everything, or of all that stands on the floor; all of a row doing what was asked of one: no
+  /// answer.
   double all_rigid = 40;
 };
 

@@ -272,6 +272,56 @@ void dissolve_followers(const Shape& shape, const std::set<RelationIndex>& as_gr
   }
 }
 
+/// Whether the instances of two groups of one kind and number are joined one to one, in their order, and to no others.
+bool hang_together(const Shape& shape, const Relation& a, const Relation& b) {
+  if (a.kind != b.kind || a.parts.size() != b.parts.size()) return false;
+  const auto place_in = [](const Relation& group, PartIndex part) {
+    return std::find(group.parts.begin(), group.parts.end(), part) - group.parts.begin();
+  };
+  const auto count = std::ssize(a.parts);
+  std::vector<bool> joined(a.parts.size(), false);
+  for (const Relation& joint : shape.relations) {
+    if (!joint.is_attachment()) continue;
+    for (const auto& [first, second] :
+         {std::pair(joint.parts[0], joint.parts[1]), std::pair(joint.parts[1], joint.parts[0])}) {
+      const auto i = place_in(a, first), k = place_in(b, second);
+      if (i == count || k == count) continue;
+      if (i != k) return false;
+      joined[static_cast<std::size_t>(i)] = true;
+    }
+  }
+  return std::all_of(joined.begin(), joined.end(), [](bool one) { return one; });
+}
+
+/// Rows that hang on a row whose number or spacing changes get the same change, unless the request speaks of them.
+void add_following_rows(const Shape& shape, const std::set<RelationIndex>& dissolved, ResolvedRequest& resolved) {
+  const auto is_told = [&](RelationIndex group) {
+    const PartIndex parent = parent_of(shape.relations[group]);
+    const auto& seeds = resolved.seed_parts;
+    return dissolved.count(group) > 0 || resolved.disabled.count(group) > 0 || resolved.hints.count(parent) > 0 ||
+           std::find(seeds.begin(), seeds.end(), parent) != seeds.end();
+  };
+  for (std::size_t i = 0; i < resolved.seed.size(); ++i) {  // those that are added, too
+    if (resolved.seed[i].op != Op::change_count && resolved.seed[i].op != Op::change_delta) continue;
+    const Relation& changed = shape.relations[*shape.parts[resolved.seed_parts[i]].group];
+    for (const RelationIndex other : shape.relations.indices()) {
+      const Relation& group = shape.relations[other];
+      if (!group.is_group() || is_told(other) || !hang_together(shape, changed, group)) continue;
+      // Whatever else is asked of the row that changes is asked of this one as well.
+      const PartIndex parent = parent_of(group);
+      for (std::size_t k = 0; k < resolved.seed.size(); ++k) {
+        const Op op = resolved.seed[k].op;
+        if (resolved.seed_parts[k] != resolved.seed_parts[i] || (op != Op::change_count && op != Op::change_delta))
+          continue;
+        Statement statement = resolved.seed[k];
+        statement.relation = group.id;
+        resolved.seed.push_back(std::move(statement));
+        resolved.seed_parts.push_back(parent);
+      }
+    }
+  }
+}
+
 /// The joint of a group that may come apart stands for those of its instances with the same part: they may as well. So
 /// may the instances of a group that may leave the floor.
 void disable_relations_of_instances(const Shape& shape, ResolvedRequest& resolved) {
@@ -330,6 +380,8 @@ Result<ResolvedRequest> resolve(const EditRequest& request, const Shape& shape) 
   }
   dissolve_followers(shape, as_group, dissolved);
   if (Status s = resolve_hints(request, shape, dissolved, resolved); !s.ok()) return s.error();
+  resolved.asked = resolved.seed.size();
+  add_following_rows(shape, dissolved, resolved);
   resolved.dissolved.assign(dissolved.begin(), dissolved.end());
   resolved.disabled.insert(dissolved.begin(), dissolved.end());
   disable_relations_of_instances(shape, resolved);

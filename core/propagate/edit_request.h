@@ -33,6 +33,9 @@ nlohmann::json to_json(const EditRequest& request);
 struct ResolvedRequest {
   std::vector<Statement> seed;        ///< node:… replaced by ids
   std::vector<PartIndex> seed_parts;  ///< whose corners seed[i] moves; the parent for group operators
+  /// How many of the seeds were asked for. The others change rows whose instances hang on those of a row that one of
+  /// these changes, one on one, as handles on drawers: they change with it.
+  std::size_t asked = 0;
   /// Reflections, attachments and grounds, with those of instances whose group's own attachment or ground is disabled,
   /// and the group relations that are dissolved.
   std::set<RelationIndex> disabled;

@@ -20,12 +20,6 @@ constexpr int most_revision_runs = 40;
 /// A part that follows an edit at the ends of a slider and changes an edge by more than this factor is distorted.
 constexpr double largest_stretch = 2.5;
 
-Motion still() {
-  Motion motion;
-  motion.fill(Corners::Zero());
-  return motion;
-}
-
 /// By how much the edge that changes most has become longer, or shorter, as a factor of at least 1.
 double stretch(const Corners& rest, const Corners& deformed) {
   double most = 1;

@@ -127,6 +127,12 @@ Vec3 turned(const Vec3& lever, const Vec3& axis, double angle) {
   return std::sin(angle) * cross(axis, lever) + (std::cos(angle) - 1) * across;
 }
 
+Motion still() {
+  Motion motion;
+  motion.fill(Corners::Zero());
+  return motion;
+}
+
 Motion motion_of(const Shape& shape, PartIndex part, const std::vector<Step>& steps) {
   const Corners& rest = shape.parts[part].hexahedron.corners;
   Motion motion;

@@ -38,6 +38,8 @@ bool is_too_long(const std::vector<Step>& steps);
 
 /// Displacements of the 8 corners, from rest, at every sample.
 using Motion = std::array<Corners, sample_count>;
+/// That of a part at rest.
+Motion still();
 
 /// An operator's displacement field. For an operator that is linear in its amount: displacement of every corner for
 /// amount 1. For rotate: the lever (corner − origin) of every corner that turns, zero for the others.

@@ -53,12 +53,6 @@ double largest_difference(const Motion& a, const Motion& b) {
   return worst;
 }
 
-Motion still() {
-  Motion motion;
-  motion.fill(Corners::Zero());
-  return motion;
-}
-
 class Proposer {
  public:
   Proposer(const Problem& problem, const Edits& edits, PartIndex part, const std::optional<Hint>& hint,
@@ -391,18 +385,12 @@ double price_of_relations(const Problem& problem, const Edits& edits, PartIndex 
         if (!worst) worst = ContactChange{};
         if (std::abs(now.apart) > std::abs(worst->apart)) worst->apart = now.apart;
         worst->lost = std::max(worst->lost, now.lost);
+        worst->hinged = (s == 0 || worst->hinged) && now.hinged;
       }
     }
     cost += price_of_relation(prices, relation, by, tolerance, worst);
   }
-  if (const auto& footing = problem.footings[part]) {
-    double off = 0;
-    for (const Weights& point : footing->points) {
-      for (const std::size_t s : {std::size_t{0}, sample_count - 1})
-        off = std::max(off, interpolate(point, motion[s]).cwiseProduct(footing->mask).cwiseAbs().maxCoeff());
-    }
-    if (off > exact) cost += prices.broken_ground;
-  }
+  if (const auto& footing = problem.footings[part]) cost += price_of_footing(prices, *footing, motion);
   return cost;
 }
 

@@ -16,6 +16,7 @@
 #include "core/edit/program.h"
 #include "core/propagate/closed_form.h"
 #include "core/propagate/cost.h"
+#include "core/propagate/footing.h"
 #include "core/propagate/select.h"
 #include "core/propagate/trace.h"
 
@@ -26,12 +27,6 @@ struct ProposalOptions {
   bool breaking_edits = true;   ///< likewise: amounts that only some of the relations ask for
   Prices prices;
   std::size_t proposals = 3;  ///< how many are brought into closed form
-};
-
-/// What the floor asks of a part that stands on it.
-struct Footing {
-  std::vector<Weights> points;  ///< its lowest, by their weights in its hexahedron
-  Vec3 mask = Vec3::UnitY();    ///< the directions in which they stay
 };
 
 /// What the search knows.

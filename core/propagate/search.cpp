@@ -12,12 +12,6 @@ namespace {
 
 using Pulls = std::vector<PointConstraint>;
 
-Motion still() {
-  Motion motion;
-  motion.fill(Corners::Zero());
-  return motion;
-}
-
 /// A broken mirror image side by side, number of broken relations.
 using Urgency = std::pair<bool, int>;
 

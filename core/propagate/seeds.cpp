@@ -50,7 +50,8 @@ class Applier {
       trace.part = id(part);
       trace.kind = "seed";
       trace.statements = indices[part];
-      trace.why = "the edit asked for";
+      const bool is_asked = indices[part].front() < static_cast<int>(request_.asked);
+      trace.why = is_asked ? "the edit asked for" : "its instances hang on those of a row that changes";
       seeds_.edits[part] =
           std::make_shared<const PartEdit>(PartEdit{steps[part], motion_of(shape_, part, steps[part])});
       seeds_.trace.push_back(std::move(trace));

@@ -109,9 +109,7 @@ class Search {
   }
 
   bool is_slightly_off() const {
-    Motion still;
-    still.fill(Corners::Zero());
-    for (const auto& [relation, by] : residuals(constraints_, still)) {
+    for (const auto& [relation, by] : residuals(constraints_, still())) {
       if (by > scene_.options.one_edited) return false;
     }
     return true;
@@ -271,9 +269,7 @@ class Search {
       }
       return lost;
     };
-    Motion still;
-    still.fill(Corners::Zero());
-    const auto at_rest = lost_by(false, [&](std::size_t g) { return residuals(groups[g], still)[0].second; });
+    const auto at_rest = lost_by(false, [&](std::size_t g) { return residuals(groups[g], still())[0].second; });
     std::vector<Proposal> best;
     Lost fewest = at_rest;
     for (const std::vector<Candidate>* list : {&own_, &neighbour_}) {

@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 
 #include "core/base/tolerance.h"
 #include "core/prove/scope.h"
+#include "core/shape/hexahedron.h"
 
 namespace parsel {
 
@@ -47,12 +49,11 @@ double overlap_along(const Corners& a, const Corners& b, const Vec3& direction) 
   return std::min(first.high - second.low, second.high - first.low);
 }
 
+/// The depth of the overlap of two boxes; negative: by how much they are apart at least.
 double depth(const Corners& a, const Corners& b) {
   const Axes first = axes_of(a), second = axes_of(b);
   double least = std::numeric_limits<double>::infinity();
-  const auto look = [&](const Vec3& direction) {
-    if (least > 0) least = std::min(least, overlap_along(a, b, direction));
-  };
+  const auto look = [&](const Vec3& direction) { least = std::min(least, overlap_along(a, b, direction)); };
   for (const Vec3& normal : first.normals) look(normal);
   for (const Vec3& normal : second.normals) look(normal);
   for (const Vec3& edge : first.edges) {
@@ -62,6 +63,22 @@ double depth(const Corners& a, const Corners& b) {
     }
   }
   return least;
+}
+
+/// By how much the surfaces that touched are apart, across them, where they are nearest: parts may slide.
+double surfaces_apart(const ContactPatch& patch, const Corners& a, const Corners& b) {
+  std::array<Vec3, 4> on_a;
+  for (std::size_t k = 0; k < 4; ++k) on_a[k] = interpolate(trilinear_weights(patch.local_a[k]), a);
+  const Vec3 across = (on_a[1] - on_a[0]).cross(on_a[2] - on_a[0]);
+  if (across.norm() < parallel) return 0;  // a line or a point has no side
+  const Vec3 rest_across = patch.half_sides[0].cross(patch.half_sides[1]);
+  const Vec3 normal = across.normalized() * (rest_across.dot(patch.normal) < 0 ? -1 : 1);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 on_b = interpolate(trilinear_weights(patch.local_b[k]), b);
+    least = std::min(least, (on_b - on_a[k]).dot(normal));
+  }
+  return std::max(0.0, least);
 }
 
 double thickness(const Corners& corners) {
@@ -90,26 +107,31 @@ State Clearance::state_at(double x) const {
   return evaluator_(values);
 }
 
+bool Clearance::is_instance(PartIndex part) const {
+  const auto& group = shape_.parts[part].group;
+  return group && std::find(dissolved_.begin(), dissolved_.end(), *group) == dissolved_.end();
+}
+
+bool Clearance::has_changed_count(PartIndex part, const State& state) const {
+  if (!is_instance(part)) return false;
+  const RelationIndex group = *shape_.parts[part].group;
+  return state.groups[group].instances.size() != at_rest_.groups[group].instances.size();
+}
+
 std::vector<Clearance::Body> Clearance::bodies(const State& state) const {
   const RelationIndex none(shape_.relations.size());
   std::vector<Body> result;
   for (const PartIndex p : shape_.parts.indices()) {
-    const Part& part = shape_.parts[p];
-    if (part.is_virtual()) continue;
-    const bool is_instance =
-        part.group && std::find(dissolved_.begin(), dissolved_.end(), *part.group) == dissolved_.end();
-    if (is_instance && state.groups[*part.group].instances.size() != at_rest_.groups[*part.group].instances.size())
-      continue;
+    if (shape_.parts[p].is_virtual() || has_changed_count(p, state)) continue;
     const Corners& corners = state.parts[p];
-    result.push_back({p, is_instance ? *part.group : none, corners, corners.colwise().minCoeff().transpose(),
-                      corners.colwise().maxCoeff().transpose()});
+    result.push_back({p, is_instance(p) ? *shape_.parts[p].group : none, corners,
+                      corners.colwise().minCoeff().transpose(), corners.colwise().maxCoeff().transpose()});
   }
   return result;
 }
 
-std::string Clearance::fault(double x) const {
+void Clearance::find_overlaps(const std::vector<Body>& now, std::vector<Fault>& found) const {
   const RelationIndex none(shape_.relations.size());
-  const std::vector<Body> now = bodies(state_at(x));
   // Sweep along x: a body meets those before it that have not ended yet.
   std::vector<std::size_t> order(now.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -125,19 +147,61 @@ std::string Clearance::fault(double x) const {
       if (edited_.count(body.part) == 0 && edited_.count(other.part) == 0) continue;
       if (body.group == other.group && body.group != none) continue;
       if ((body.low.array() > other.high.array()).any() || (other.low.array() > body.high.array()).any()) continue;
+      const double deep = depth(body.corners, other.corners);
+      if (deep <= seen_depth) continue;
       const Corners& rest = at_rest_.parts[body.part];
       const Corners& rest_of_other = at_rest_.parts[other.part];
       const double slight = std::min(delta_both_edited, std::min(thickness(rest), thickness(rest_of_other)) / 2);
-      const double deep = depth(body.corners, other.corners);
-      if (deep <= slight) continue;
       const double before = depth(rest, rest_of_other);
-      if (before > slight || deep <= slight + std::max(before, 0.0)) continue;
-      const auto& [first, second] = std::minmax(shape_.parts[body.part].id, shape_.parts[other.part].id);
-      return first + " and " + second + " would run into each other";
+      if (before > slight || deep <= seen_depth + std::max(before, 0.0)) continue;
+      found.push_back({body.part, other.part, false});
     }
     open.push_back(i);
   }
-  return "";
+}
+
+void Clearance::find_gaps(const State& state, std::vector<Fault>& found) const {
+  for (const Relation& relation : shape_.relations) {
+    if (!relation.is_attachment()) continue;
+    const PartIndex a = relation.parts[0], b = relation.parts[1];
+    if (shape_.parts[a].is_virtual() || shape_.parts[b].is_virtual()) continue;
+    if (edited_.count(a) == 0 && edited_.count(b) == 0) continue;
+    if (has_changed_count(a, state) || has_changed_count(b, state)) continue;
+    const auto& patch = std::get<Attachment>(relation.detail).patch;
+    const auto apart = [&](const State& s) {
+      const double boxes = std::max(0.0, -depth(s.parts[a], s.parts[b]));
+      return patch ? std::max(boxes, surfaces_apart(*patch, s.parts[a], s.parts[b])) : boxes;
+    };
+    const double gap = apart(state);
+    if (gap > seen_gap && gap > seen_gap + apart(at_rest_)) found.push_back({a, b, true});
+  }
+}
+
+std::vector<Clearance::Fault> Clearance::faults(double x) const {
+  const State state = state_at(x);
+  std::vector<Fault> found;
+  find_overlaps(bodies(state), found);
+  find_gaps(state, found);
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [&](const Fault& fault) { return accepted_.count(std::minmax(fault.a, fault.b)) > 0; }),
+              found.end());
+  return found;
+}
+
+std::string Clearance::fault(double x) const {
+  const std::vector<Fault> found = faults(x);
+  if (found.empty()) return "";
+  const auto& [first, second] = std::minmax(shape_.parts[found[0].a].id, shape_.parts[found[0].b].id);
+  return first + " and " + second + (found[0].apart ? " would come apart" : " would run into each other");
+}
+
+bool Clearance::accept(double x) {
+  bool overlap = false;
+  for (const Fault& fault : faults(x)) {
+    accepted_.insert(std::minmax(fault.a, fault.b));
+    overlap = overlap || !fault.apart;
+  }
+  return overlap;
 }
 
 }  // namespace parsel

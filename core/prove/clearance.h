@@ -1,9 +1,11 @@
-// Whether parts enter each other that do not at rest: a door that is opened into its shelves, an arm that runs into a
-// back. Relations say nothing of parts that are not joined, and of joined ones only what becomes of the joint's points.
+// What a person sees go wrong between two parts, whatever their relation says: parts that enter each other and did not at
+// rest (a door that is opened into its shelves, an arm that runs into a back), and parts that touched and have come
+// apart (a rung that has slid beyond the end of its stile).
 #pragma once
 
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/edit/evaluate.h"
@@ -12,23 +14,32 @@
 
 namespace parsel {
 
+/// Below these nobody sees anything; half-diagonals.
+inline constexpr double seen_depth = 0.008, seen_gap = 0.014;
+
 /// Parts are seen as their hexahedra, the instances of a group one by one. Two that overlap at rest, by more than half
 /// of the thinner one's thickness or by delta_both_edited, are not looked at, as the box of a whole cabinet holds its
-/// shelves; nor are two instances of one group, nor instances whose number the layer has changed.
+/// shelves; nor are two instances of one group, nor instances whose number the layer has changed. Parts that touched are
+/// those that a joint ties; they are apart when their boxes are, or, across it, the patch in which their surfaces met.
 ///
-/// The depth of an overlap is the smallest along the boxes' face normals and the cross products of their edges
-/// (Gottschalk, Lin and Manocha 1996, OBBTree, §5): exact for boxes; for sheared hexahedra, of which the mean edges
-/// count, a little more than the least.
+/// The depth of an overlap is the smallest along the boxes' face normals and the cross products of their edges, and so is
+/// a gap, but for the sign (Gottschalk, Lin and Manocha 1996, OBBTree, §5): depths are exact for boxes, gaps no larger
+/// than they are; for sheared hexahedra, of which the mean edges count, a little more than the least.
 class Clearance {
  public:
   /// `program` passed validate() for `shape`, which must live as long. Layers up to `layer` are applied, those before
   /// it at their values.
   Clearance(const Shape& shape, const Program& program, std::size_t layer);
 
-  /// Which part has entered which where the layer's parameter is x, a clause for people; empty when none has: no two
-  /// parts, at least one of them edited, overlap deeper than at 0 by more than the thickness said above. Time grows
-  /// with n log n of n parts and with the pairs whose bounding boxes overlap.
+  /// The first thing that is wrong where the layer's parameter is x, a clause for people; empty when nothing is:
+  ///   * two parts, at least one of them edited, overlap deeper than at 0 by more than seen_depth;
+  ///   * two parts that are joined, at least one of them edited, are apart by seen_gap more than at 0.
+  /// Time grows with n log n of n parts and with the pairs whose bounding boxes overlap.
   std::string fault(double x) const;
+
+  /// What is wrong at x is meant so, or was so from the start: those pairs are not looked at any more. Whether some of
+  /// them run into each other.
+  bool accept(double x);
 
  private:
   struct Body {
@@ -37,14 +48,24 @@ class Clearance {
     Corners corners;
     Vec3 low, high;
   };
+  struct Fault {
+    PartIndex a, b;
+    bool apart;
+  };
   std::vector<Body> bodies(const State& state) const;
   State state_at(double x) const;
+  bool is_instance(PartIndex part) const;
+  bool has_changed_count(PartIndex part, const State& state) const;
+  void find_overlaps(const std::vector<Body>& now, std::vector<Fault>& found) const;
+  void find_gaps(const State& state, std::vector<Fault>& found) const;
+  std::vector<Fault> faults(double x) const;
 
   const Shape& shape_;
   std::size_t layer_;
   Evaluator evaluator_;
   std::vector<double> values_;
   std::set<PartIndex> edited_;
+  std::set<std::pair<PartIndex, PartIndex>> accepted_;
   std::vector<RelationIndex> dissolved_;
   State at_rest_;
 };

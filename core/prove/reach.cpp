@@ -19,6 +19,8 @@ constexpr int halvings = 14;
 constexpr double decimals = 1e4;
 /// Where a relation is off by this share of what it may be it ends the range, so that the proof has room to close.
 constexpr double near_limit = 0.98;
+/// What is seen to be wrong this early ends nothing: it is what was asked for, or a slider would be of no use.
+constexpr double least_seen = 0.1;
 constexpr int most_cuts = 4, most_halvings = 3;
 
 /// What goes wrong at a value of the parameter, a clause; empty when nothing does.
@@ -29,10 +31,9 @@ struct End {
   std::string reason;
 };
 
-/// From `core`, where nothing counts as wrong yet unless `from_core`, outwards to `end`: the last value before a fault.
-End cut(double core, const End& end, const Fault& fault, bool from_core) {
+/// From `core`, where nothing counts as wrong yet, outwards to `end`: the last value before a fault.
+End cut(double core, const End& end, const Fault& fault) {
   if (core == end.x) return end;
-  if (std::string here = from_core ? fault(core) : ""; !here.empty()) return {core, std::move(here)};
   double good = core;
   for (int i = 1; i <= steps; ++i) {
     double bad = i == steps ? end.x : core + (end.x - core) * i / steps;
@@ -57,9 +58,9 @@ End cut(double core, const End& end, const Fault& fault, bool from_core) {
   return end;
 }
 
-void cut(Range& range, const Range& core, const Fault& fault, bool from_core) {
-  const End low = cut(core.min, {range.min, range.min_reason}, fault, from_core);
-  const End high = cut(core.max, {range.max, range.max_reason}, fault, from_core);
+void cut(Range& range, const Range& core, const Fault& fault) {
+  const End low = cut(core.min, {range.min, range.min_reason}, fault);
+  const End high = cut(core.max, {range.max, range.max_reason}, fault);
   range = {low.x, high.x, low.reason, high.reason};
 }
 
@@ -117,17 +118,29 @@ class Extension {
 
   SliderReach operator()(double least, double low, double high) {
     Range range = find_range(shape_, program_, layer_, low, high);
+    cut_where_seen(range, least);
     core_ = range;
     core_.min = std::max(range.min, -least);
     core_.max = std::min(range.max, least);
-    if (is_core(range)) return {range, prove(range)};
-    const Clearance clearance(shape_, program_, layer_);
-    cut(
-        range, core_, [&](double x) { return clearance.fault(x); }, true);
     return keep_relations(std::move(range));
   }
 
  private:
+  /// Ends the range where something is seen to go wrong. What is so from the start, as when a handle is pulled off, ends
+  /// nothing; a side on which parts run into each other from the start goes no farther than the search looked.
+  void cut_where_seen(Range& range, double least) const {
+    const auto end_of = [&](double side, End end) {
+      if (std::abs(end.x) <= least_seen) return end;
+      Clearance clearance(shape_, program_, layer_);
+      const std::string reason = clearance.fault(side * least_seen);
+      if (clearance.accept(side * least_seen) && std::abs(end.x) > least) end = {side * least, reason};
+      return cut(side * least_seen, end, [&](double x) { return clearance.fault(x); });
+    };
+    const End low = end_of(-1, {range.min, range.min_reason});
+    const End high = end_of(1, {range.max, range.max_reason});
+    range = {low.x, high.x, low.reason, high.reason};
+  }
+
   bool is_core(const Range& range) const { return range.min >= core_.min && range.max <= core_.max; }
 
   std::vector<RelationReport> prove(const Range& range) {
@@ -149,7 +162,7 @@ class Extension {
       const std::vector<Kept> lost = lost_in(reports, within);
       if (lost.empty()) return {std::move(range), std::move(reports)};
       const Range before = range;
-      if (cuts++ < most_cuts) cut(range, core_, drifting(lost), false);
+      if (cuts++ < most_cuts) cut(range, core_, drifting(lost));
       if (range.min == before.min && range.max == before.max) shrink(range, core_, ++shrinks > most_halvings);
       if (!is_core(range)) reports = prove(range);
     }

@@ -21,15 +21,15 @@ struct SliderReach {
   std::vector<RelationReport> relations;  ///< over the range, as prove_relations() gives them
 };
 
-/// The widest range of the layer's parameter that find_range() finds within [low, high] and on which, beyond ±`least`,
-///   * no parts run into each other (clearance.h),
+/// The widest range of the layer's parameter that find_range() finds within [low, high], in which no parts are seen to run
+/// into each other or to come apart (clearance.h; where they do so within ±0.1 already, parts that come apart end nothing,
+/// and parts that run into each other end that side at ±`least`), and on which, beyond ±`least`,
 ///   * every relation that holds within ±`least` is off by no more than there or clean_drift, and holds, certified if
 ///     it is there.
 /// The joints of instances of a group, which slide along their neighbours where the row spreads, may use all of their
-/// tolerance. So no relation is held, or certified, in ±`least` alone. What is broken there, or disabled, ends nothing;
-/// a side on which parts run into each other there already ends there. Ends that are found, by 24 steps a side and
-/// bisection, are rounded towards 0 to four decimals; when a proof then finds more between the steps, or none, the part
-/// beyond ±`least` is halved, three times at most, and then given up.
+/// tolerance. So no relation is held, or certified, in ±`least` alone. What is broken there, or disabled, ends nothing.
+/// Ends that are found, by 24 steps a side and bisection, are rounded towards 0 to four decimals; when a proof then finds
+/// more between the steps, or none, the part beyond ±`least` is halved, three times at most, and then given up.
 ///
 /// `program` passed validate() for `shape`, but for the layer's range, which counts for nothing; low <= -least < 0 <
 /// least <= high.

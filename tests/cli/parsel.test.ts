@@ -36,35 +36,6 @@ beforeAll(() => {
 });
 afterAll(() => rmSync(folder, { recursive: true }));
 
-/** Debian's package, where it happens to be installed. */
-const hasBlender = spawnSync('blender', ['--version']).status === 0;
-const blenderScript = `
-import bpy
-
-def vertices(path, key):
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.ops.import_scene.gltf(filepath=path)
-    keys = 0
-    for o in bpy.data.objects:
-        blocks = o.data.shape_keys.key_blocks if o.type == 'MESH' and o.data.shape_keys else {}
-        if key in blocks:
-            blocks[key].value = 1
-            keys += 1
-    graph = bpy.context.evaluated_depsgraph_get()
-    out = {}
-    for o in bpy.data.objects:
-        if o.type == 'MESH':
-            seen = o.evaluated_get(graph)
-            out[o.name] = [seen.matrix_world @ v.co for v in seen.data.vertices]
-    return keys, out
-
-keys, morphed = vertices('sliders.glb', 'x1')
-_, edited = vertices('end.glb', None)
-assert morphed.keys() == edited.keys()
-worst = max((a - b).length for o in edited for a, b in zip(morphed[o], edited[o], strict=True))
-print(f'shape keys {keys}, worst {worst}')
-`;
-
 /** A GLB as .gltf with its binary chunk in a file beside it. */
 function unpack(glb: string, gltf: string, bin: string) {
   const bytes = readFileSync(join(folder, glb));
@@ -204,20 +175,6 @@ describe('parsel', () => {
     expect(code).toBe(1);
     expect(text).toMatch(/layer 1 \(.*\): its slider x1 changes how many instances there are.*; export one value/);
     expect(readdirSync(folder)).not.toContain('count.glb');
-  });
-
-  it.skipIf(!hasBlender)('Blender shows the morph target as a shape key with the vertices of apply', () => {
-    const { max } = readJson('program.json').layers[0].parameter;
-    run('apply', 'chair.glb', 'program.json', '--morph', '-o', 'sliders.glb');
-    run('apply', 'chair.glb', 'program.json', '--set', `x1=${max}`, '-o', 'end.glb');
-    write('shape_key.py', blenderScript);
-    const said = execFileSync('blender', ['--background', '--factory-startup', '--python', 'shape_key.py'], {
-      cwd: folder,
-      encoding: 'utf8',
-    });
-    const [, keys, worst] = /shape keys (\d+), worst (\S+)/.exec(said) ?? [];
-    expect(Number(keys)).toBeGreaterThan(0);
-    expect(Number(worst)).toBeLessThan(1e-4);
   });
 
   it('read says what a plain request means, and when it is not sure what may be meant', () => {

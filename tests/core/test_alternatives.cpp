@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -97,6 +98,62 @@ TEST_CASE("a drawer that is pulled comes out of its chest with its knob; the che
   for (const PartIndex part : {left, right, top}) CHECK(moved(shape, found, part) == 0);
 }
 
+TEST_CASE("one of the drawers on the front of a pedestal comes off it; the others, the pedestal and its top stay") {
+  test::BoxShape s;
+  const PartIndex pedestal = s.box("pedestal", {0, 0, 0}, {0.3, 0.4, 0.4});
+  const PartIndex top = s.box("top", {0, 0.43, 0}, {0.35, 0.03, 0.45});
+  s.stand(pedestal);
+  s.attach(top, pedestal, {{-0.3, 0.4, 0}, {0.3, 0.4, 0}});
+  const PartIndex row = s.row("drawer", 3, {0, -0.25, 0.41}, {0, 0.25, 0.41}, {0.25, 0.1, 0.01}, 1);
+  const auto drawer = [&](int i) { return *s.shape().find_part("drawer_" + std::to_string(i)); };
+  for (int i = 1; i <= 3; ++i) {
+    const double y = 0.25 * (i - 2);
+    s.attach(pedestal, drawer(i),
+             {{-0.25, y - 0.1, 0.4}, {0.25, y - 0.1, 0.4}, {-0.25, y + 0.1, 0.4}, {0.25, y + 0.1, 0.4}});
+  }
+  s.attach(pedestal, row, {{-0.25, -0.35, 0.4}, {0.25, -0.35, 0.4}, {-0.25, 0.35, 0.4}, {0.25, 0.35, 0.4}});
+  const Shape& shape = s.shape();
+  const Propagation found = run(shape, {{"seed", {move("drawer_2", Vec3::UnitZ())}}});
+  CHECK(moved(shape, found, drawer(2)) == doctest::Approx(0.2));
+  for (const PartIndex part : {pedestal, top, drawer(1), drawer(3)}) CHECK(moved(shape, found, part) == 0);
+  // Asked of the row, all come off or the pedestal grows with them.
+  const Propagation all = run(shape, {{"seed", {move("drawers", Vec3::UnitZ())}}});
+  for (int i = 1; i <= 3; ++i) CHECK(moved(shape, all, drawer(i)) == doctest::Approx(0.2));
+}
+
+TEST_CASE("a door opens on its hinges and takes its handle along; the cabinet and the other door stay") {
+  test::BoxShape s;
+  const PartIndex body = s.box("body", {0, 0, 0}, {0.4, 0.5, 0.2});
+  const PartIndex left = s.box("door_left", {0.2, 0, 0.22}, {0.2, 0.5, 0.02});
+  const PartIndex right = s.box("door_right", {-0.2, 0, 0.22}, {0.2, 0.5, 0.02});
+  const PartIndex handle = s.box("handle", {0.04, 0, 0.25}, {0.01, 0.08, 0.01});
+  s.stand(body);
+  // The points lie in the middle of what the boxes have in common, not on the hinge.
+  s.attach(body, left, {{0.2, -0.5, 0.2}, {0.2, 0.5, 0.2}});
+  s.attach(body, right, {{-0.2, -0.5, 0.2}, {-0.2, 0.5, 0.2}});
+  s.attach(handle, left, {{0.04, 0, 0.24}});
+  const Shape& shape = s.shape();
+  const auto opened = [&](const Vec3& hinge) {
+    return run(shape, {{"seed",
+                        {{{"op", "rotate"},
+                          {"part", "door_left"},
+                          {"origin", {hinge.x(), hinge.y(), hinge.z()}},
+                          {"direction", {0, 1, 0}},
+                          {"amount", "x"}}}}});
+  };
+  // On the outer edge behind, within the door, and in front of it.
+  for (const double depth : {0.2, 0.22, 0.24}) {
+    const Propagation found = opened({0.4, 0, depth});
+    for (const PartIndex part : {body, right}) CHECK(moved(shape, found, part) == 0);
+    const State state = Evaluator(found.program, shape)({0.3});
+    const Vec3 arm = shape.parts[handle].hexahedron.point(Vec3::Zero()) - Vec3(0.4, 0, depth);
+    const Vec3 at = state.parts[handle].colwise().mean().transpose();
+    const Vec3 turned(std::cos(0.3) * arm.x() + std::sin(0.3) * arm.z(), arm.y(),
+                      std::cos(0.3) * arm.z() - std::sin(0.3) * arm.x());
+    CHECK((at - Vec3(0.4, 0, depth) - turned).norm() < 1e-6);
+  }
+}
+
 TEST_CASE("what holds every relation and the floor is left as the greedy search found it") {
   const Shape shape = test::chair();
   const json wider = {{"op", "scale_1d"},
@@ -141,4 +198,24 @@ TEST_CASE("contacts: a box on another is across their common face, slides, comes
   CHECK(moved_by({0, 0.05, 0}).apart == doctest::Approx(0.05));
   CHECK(moved_by({0, -0.05, 0}).apart == doctest::Approx(-0.05));
   CHECK(!contact_of(table, box({0, 0, 0}, {0.4, 0.08, 0.4})).has_value());
+}
+
+TEST_CASE("contacts: a lid turns on an edge of its chest, and not on an axis that is farther away than it is thick") {
+  const Corners chest = make_box({0, 0, 0}, Mat3::Identity(), {0.5, 0.3, 0.4}).corners;
+  const Corners lid = make_box({0, 0.32, 0}, Mat3::Identity(), {0.5, 0.02, 0.4}).corners;
+  const auto contact = contact_of(lid, chest);
+  REQUIRE(contact.has_value());
+  const auto turned = [&](const Vec3& origin, double angle) {
+    Mat3 turn = Mat3::Identity();
+    turn << 1, 0, 0, 0, std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle);
+    return Corners(((lid.rowwise() - origin.transpose()) * turn.transpose()).rowwise() + origin.transpose());
+  };
+  for (const double angle : {-0.2, -1.0, -1.9}) {
+    CHECK(change_of(*contact, turned({0, 0.3, -0.4}, angle), chest).hinged);
+    CHECK(change_of(*contact, turned({0, 0.33, -0.4}, angle), chest).hinged);
+    CHECK(!change_of(*contact, turned({0, 0.3, -0.5}, angle), chest).hinged);
+    CHECK(!change_of(*contact, turned({0, 0.3, 0}, angle), chest).hinged);
+  }
+  CHECK(!change_of(*contact, lid, chest).hinged);
+  CHECK(!change_of(*contact, lid.rowwise() + Vec3(0.01, 0, 0).transpose(), chest).hinged);
 }

@@ -310,6 +310,54 @@ TEST_CASE("a joint of a group that may come apart takes those of its instances a
   CHECK(count(allowed, RelationStatus::disabled) == 5);
 }
 
+TEST_CASE("rows that hang on a row one on one change their number and their spacing with it") {
+  test::BoxShape s;
+  const PartIndex rail = s.box("rail", {0, -0.3, 0}, {0.6, 0.02, 0.05});
+  const PartIndex post_row = s.row("post", 4, {-0.45, 0, 0}, {0.45, 0, 0}, {0.03, 0.28, 0.03}, 0);
+  const PartIndex cap_row = s.row("cap", 4, {-0.45, 0.3, 0}, {0.45, 0.3, 0}, {0.05, 0.02, 0.05}, 0);
+  s.attach(rail, post_row, {{-0.48, -0.28, 0}, {0.48, -0.28, 0}});
+  for (int i = 1; i <= 4; ++i) {
+    const auto at = [&](const std::string& row) { return *s.shape().find_part(row + "_" + std::to_string(i)); };
+    s.attach(at("post"), at("cap"), {s.shape().parts[at("cap")].hexahedron.point({0, -1, 0})});
+  }
+  s.attach(post_row, cap_row, {{-0.48, 0.28, 0}, {0.48, 0.28, 0}});
+  const Shape& shape = s.shape();
+  const RelationIndex t1 = *shape.find_relation("t1"), t2 = *shape.find_relation("t2");
+  const auto instances = [&](const json& edit, double x) {
+    const Propagation found = run(shape, edit);
+    const State state = Evaluator(found.program, shape)({x});
+    return std::pair(state.groups[t1].instances, state.groups[t2].instances);
+  };
+  for (const json& seed : {json{{"op", "change_count"}, {"relation", "t1"}, {"amount", "10*x"}},
+                           json{{"op", "change_delta"}, {"relation", "t1"}, {"amount", "0.2*x"}, {"anchor", "start"}},
+                           json{{"op", "change_count"}, {"relation", "t2"}, {"amount", "10*x"}}}) {
+    CAPTURE(seed.dump());
+    const auto [below, above] = instances({{"seed", {seed}}}, 0.25);
+    REQUIRE(below.size() == above.size());
+    if (seed["op"] == "change_count") CHECK(below.size() == 6);
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      const Vec3 between = (above[i].colwise().mean() - below[i].colwise().mean()).transpose();
+      CHECK((between - Vec3(0, 0.3, 0)).norm() < 1e-9);
+    }
+  }
+  SUBCASE("unless the request speaks of them") {
+    const json seed = {{"op", "change_count"}, {"relation", "t1"}, {"amount", "10*x"}};
+    CHECK(instances({{"seed", {seed}}, {"hints", {{"caps", "keep_fixed"}}}}, 0.25).second.size() == 4);
+  }
+  SUBCASE("or they are joined across") {
+    Shape crossed = shape;
+    for (Relation& relation : crossed.relations) {
+      if (relation.is_attachment() && relation.parts[1] == *shape.find_part("cap_2"))
+        relation.parts[1] = *shape.find_part("cap_3");
+    }
+    const auto request =
+        edit_request_from_json({{"seed", {{{"op", "change_count"}, {"relation", "t1"}, {"amount", "10*x"}}}}});
+    const auto resolved = resolve(*request, crossed);
+    REQUIRE(resolved.ok());
+    CHECK(resolved->seed.size() == 1);
+  }
+}
+
 TEST_CASE("handles one above the other go with their door, though they are mirror images") {
   test::BoxShape s;
   const PartIndex door = s.box("door", {0, 0, 0}, {0.4, 0.5, 0.02});

@@ -11,6 +11,7 @@
 #include "core/check/check.h"
 #include "core/edit/evaluate.h"
 #include "core/propagate/propagate.h"
+#include "core/prove/clearance.h"
 #include "hand_shapes.h"
 
 using namespace parsel;
@@ -101,16 +102,61 @@ TEST_CASE("a slider ends where parts run into each other that did not touch") {
   s.box("block", {0, 0, 0}, {0.1, 0.1, 0.1});
   s.box("wall", {0.7, 0, 0}, {0.05, 0.5, 0.5});
   const Shape shape = s.shape();
-  // 0.55 of room, and what the wall, 0.1 thick, may be entered by.
+  // 0.55 of room, and what nobody sees.
   const Program pushed = hand::program(shape, {statement(Op::translate, "block", Vec3::UnitX(), "x1")});
   const SliderReach found = reach(shape, pushed, -1, 1);
-  CHECK(found.range.max == doctest::Approx(0.55 + delta_both_edited).epsilon(1e-3));
+  CHECK(found.range.max == doctest::Approx(0.55 + seen_depth).epsilon(1e-3));
   CHECK(found.range.max_reason == "block and wall would run into each other");
   CHECK(found.range.min == -1);
-  // Twice as fast it is in the wall within ±0.35: that is as it was, and no farther.
+  // Twice as fast it ends half as far.
   const Program rammed = hand::program(shape, {statement(Op::translate, "block", Vec3::UnitX(), "2*x1")});
-  CHECK(reach(shape, rammed, -1, 1).range.max == tau);
+  CHECK(reach(shape, rammed, -1, 1).range.max == doctest::Approx((0.55 + seen_depth) / 2).epsilon(1e-3));
   CHECK(reach(shape, rammed, -1, 1).range.min == -1);
+  // What is in the wall from the start may go on, but no farther than the search looked.
+  const Program shot = hand::program(shape, {statement(Op::translate, "block", Vec3::UnitX(), "6*x1")});
+  CHECK(reach(shape, shot, -1, 1).range.max == tau);
+  CHECK(reach(shape, shot, -1, 1).range.max_reason == "block and wall would run into each other");
+}
+
+TEST_CASE("a slider ends where what slides comes off, and not where a part is pulled off") {
+  test::BoxShape s;
+  const PartIndex stile = s.box("stile", {0, 0, 0}, {0.02, 0.5, 0.02});
+  const PartIndex rung = s.box("rung", {0.12, 0.2, 0}, {0.1, 0.02, 0.02});
+  s.attach(stile, rung, {{0.02, 0.2, 0}});
+  const Shape shape = s.shape();
+  const auto moved = [&](const Vec3& direction) {
+    return reach(shape, hand::program(shape, {statement(Op::translate, "rung", direction, "x1")}), -1, 1).range;
+  };
+  // Upwards its lower edge, at 0.18, leaves the stile's upper end at 0.5; downwards its upper one, at 0.22.
+  const Range along = moved(Vec3::UnitY());
+  CHECK(along.max == doctest::Approx(0.32 + seen_gap).epsilon(1e-3));
+  CHECK(along.max_reason == "rung and stile would come apart");
+  CHECK(along.min == doctest::Approx(-0.72 - seen_gap).epsilon(1e-3));
+  CHECK(moved(Vec3::UnitX()).max == 1);
+}
+
+TEST_CASE("surfaces that part within their boxes end a slider, and those that slide do not") {
+  test::BoxShape s;
+  const PartIndex bowl = s.box("bowl", {0, 0, 0}, {0.4, 0.2, 0.4});
+  const PartIndex ball = s.box("ball", {0, 0.05, 0}, {0.1, 0.1, 0.1});
+  s.attach(bowl, ball, {{0, -0.05, 0}});
+  Shape shape = s.shape();
+  ContactPatch patch;  // the ball lies on the bowl's ground, deep in its box
+  patch.centre = Vec3(0, -0.05, 0);
+  patch.half_sides = {Vec3(0.05, 0, 0), Vec3(0, 0, 0.05)};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 corner = patch.centre + corner_sign(static_cast<int>(k), 0) * patch.half_sides[0] +
+                        corner_sign(static_cast<int>(k), 1) * patch.half_sides[1];
+    patch.local_a[k] = shape.parts[bowl].hexahedron.local(corner);
+    patch.local_b[k] = shape.parts[ball].hexahedron.local(corner);
+  }
+  std::get<Attachment>(shape.relations[RelationIndex(0)].detail).patch = patch;
+  const auto moved = [&](const Vec3& direction, const std::string& amount) {
+    return reach(shape, hand::program(shape, {statement(Op::translate, "ball", direction, amount)}), -1, 1).range;
+  };
+  // 0.05 x1 is at seen_gap at 0.28.
+  CHECK(moved(Vec3::UnitY(), "0.05*x1").max == doctest::Approx(seen_gap / 0.05).epsilon(1e-3));
+  CHECK(moved(Vec3::UnitX(), "0.05*x1").max == 1);
 }
 
 TEST_CASE("a chair becomes half or twice as wide, with all it holds") {
