@@ -11,6 +11,7 @@ import {
   directions,
   type Placing,
   turnedRound,
+  turnedTo,
   turnedUp,
   vectorOf,
 } from '../../web/src/carve/placing';
@@ -46,6 +47,17 @@ describe('a turn', () => {
     expect(shown(once, [-1, 0, 0]).map((x) => x + 0)).toEqual([0, 0, 1]); // its right is −x
     expect(turnedRound(turnedRound(turnedRound(once)))).toEqual(asInFile);
   });
+});
+
+it.each([
+  ['+z', [0, 0, 1]],
+  ['-x', [-1, 0, 0]],
+  ['-z', [0, 0, -1]],
+  ['+x', [1, 0, 0]],
+] as const)('turned until %s is the front, that is the front, and up stays', (side, vector) => {
+  const turned = turnedTo(asInFile, side);
+  expect(shown(turned, vector).map((x) => x + 0)).toEqual([0, 0, 1]);
+  expect(shown(turned, [0, 1, 0]).map((x) => x + 0)).toEqual([0, 1, 0]);
 });
 
 describe('in the file', () => {

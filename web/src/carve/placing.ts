@@ -58,6 +58,14 @@ export function turnedUp(now: Placing, up: Direction): Placing {
   return { ...now, up: directionOf(inFile(up)), front: directionOf(inFile(front)) };
 }
 
+/** The same turned about what is up until a side of the model, as it stands, is its front. */
+export function turnedTo(now: Placing, side: Direction): Placing {
+  const quarters = { '+z': 0, '-x': 1, '-z': 2, '+x': 3, '+y': 0, '-y': 0 }[side];
+  let turned = now;
+  for (let i = 0; i < quarters; i++) turned = turnedRound(turned);
+  return turned;
+}
+
 /** The same turned to the left about what is up, a quarter: what faced its right faces its front. */
 export function turnedRound(now: Placing): Placing {
   const [x] = axesOf(now);

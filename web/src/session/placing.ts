@@ -37,6 +37,12 @@ export const decline = (files: ModelFiles): void => {
   declined.value = new Set([...declined.peek(), files]);
 };
 
+/** What a language model takes for the front of a model, by the files that it was said of. */
+export const fronts = signal<ReadonlyMap<ModelFiles, Direction>>(new Map());
+export function suggestFront(files: ModelFiles, front: Direction): void {
+  fronts.value = new Map([...fronts.peek(), [files, front]]);
+}
+
 type Box = readonly [low: number, high: number][];
 
 const boxOf = (corners: Corners): Box =>

@@ -10,5 +10,8 @@ export function loadManifold(wasmUrl: string): Promise<ManifoldToplevel> {
     module.setup();
     return module;
   });
+  loading.catch(() => {
+    loading = undefined; // without a network now, perhaps with one next time
+  });
   return loading;
 }

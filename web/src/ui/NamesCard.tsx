@@ -6,6 +6,7 @@ import { models } from '../session/core';
 import { nameOf } from '../session/document';
 import { names } from '../session/name_suggestions';
 import type { NameRow, Naming } from '../session/naming';
+import { suggestFront } from '../session/placing';
 import { document, pointedAt, task } from '../session/session';
 import { dialog } from './actions';
 import { Icon } from './Icon';
@@ -71,6 +72,7 @@ function Names({ naming }: { naming: Naming }) {
       class="names"
       onSubmit={(event) => {
         event.preventDefault();
+        if (naming.front !== '') suggestFront(naming.model.files, naming.front);
         void names.accept();
       }}
     >

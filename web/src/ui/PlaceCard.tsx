@@ -1,9 +1,19 @@
 // How the model stands and how large it is: offered where the file seems to say it otherwise, and to be changed.
-import { type Direction, turnedRound, turnedUp } from '../carve/placing';
+import { type Direction, turnedRound, turnedTo, turnedUp } from '../carve/placing';
 import { whyUncarvable } from '../session/carving';
 import { models } from '../session/core';
 import { formatLengths, formatMeasure } from '../session/measure';
-import { decline, declined, extentOf, fileUnits, place, placingOf, seemsDrawnIn, seemsUp } from '../session/placing';
+import {
+  decline,
+  declined,
+  extentOf,
+  fileUnits,
+  fronts,
+  place,
+  placingOf,
+  seemsDrawnIn,
+  seemsUp,
+} from '../session/placing';
 import { document, task } from '../session/session';
 import { Icon } from './Icon';
 
@@ -16,6 +26,15 @@ const sideWords: Readonly<Record<Direction, string>> = {
   '-z': 'It seems to lie on its front.',
 };
 
+const facing: Readonly<Record<Direction, string>> = {
+  '+x': 'left',
+  '-x': 'right',
+  '+y': 'top',
+  '-y': 'bottom',
+  '+z': 'front',
+  '-z': 'back',
+};
+
 /** In the middle of the page, where the model is: the offer. */
 export function PlaceOffer() {
   const { model, unit } = document.value;
@@ -25,7 +44,8 @@ export function PlaceOffer() {
   const now = placingOf(model.files);
   const up = seemsUp(model.shape);
   const metres = seemsDrawnIn(model.shape, now);
-  if (up === null && metres === null) return null;
+  const front = fronts.value.get(model.files) ?? '+z';
+  if (up === null && metres === null && front === '+z') return null;
   const [, height] = extentOf(model.shape);
   const longest = Math.max(...extentOf(model.shape));
   const length = (value: number) => formatMeasure('height', value, value, unit);
@@ -49,6 +69,14 @@ export function PlaceOffer() {
             </button>
           </>
         )
+      )}
+      {up === null && metres === null && (
+        <>
+          <span>Its front seems to be what is its {facing[front]} here.</span>
+          <button type="button" class="button" onClick={() => void place(core, turnedTo(now, front))}>
+            Turn it round
+          </button>
+        </>
       )}
       <button
         type="button"

@@ -4,7 +4,7 @@ import { effect, type ReadonlySignal, untracked } from '@preact/signals';
 import type { Evaluator } from '../program/compile';
 import type { Shape } from '../program/types';
 import type { Actor, Stage } from '../scene/stage';
-import { cutState, cutterOf, type PartCut } from '../session/cuts';
+import { type Cutter, cutState, cutterOf, type PartCut } from '../session/cuts';
 import { document, family as families, restIsShown, say, step } from '../session/session';
 
 /** Answers how to end it. */
@@ -21,6 +21,7 @@ export function followCuts(
   },
 ): () => void {
   let drawnBy: Actor | null = null;
+  const told = new WeakSet<Cutter>(); // once, not with every step of a slider
   const draw = (cuts: readonly PartCut[]) => {
     drawnBy = actorOf();
     for (const cut of cuts) drawnBy?.view.setSurface(cut.part, cut);
@@ -33,7 +34,10 @@ export function followCuts(
     const cutter = cutterOf(model);
     if (cutter === null) return;
     cutter.onCuts = (cuts) => shown.peek() === model.shape && draw(cuts);
-    cutter.onFailure = (reason) => say(`What is cut is not drawn as it is: ${reason}. Reload the page.`, 'error');
+    cutter.onFailure = (reason) => {
+      if (!told.has(cutter)) say(`What is cut is not drawn as it is: ${reason}. Reload the page.`, 'error');
+      told.add(cutter);
+    };
     if (drawnBy !== actorOf() && cutter.latest !== null) draw(cutter.latest);
     const evaluator = untracked(evaluatorOf);
     if (evaluator === null) return;
