@@ -8,7 +8,7 @@ import { validateBytes } from 'gltf-validator';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { scripts } from '../web/scripts';
 
-const tool = fileURLToPath(new URL('../../build/native-debug/core/parsel', import.meta.url));
+const tool = process.env.PARSEL_TOOL ?? fileURLToPath(new URL('../../build/native-debug/core/parsel', import.meta.url));
 let folder: string;
 
 function run(...given: string[]): string {
