@@ -8,7 +8,7 @@
 #include <array>
 #include <optional>
 
-#include "core/base/geometry.h"
+#include "core/propagate/motion.h"
 
 namespace parsel {
 
@@ -37,5 +37,9 @@ struct ContactChange {
   bool hinged = false;
 };
 ContactChange change_of(const Contact& contact, const Corners& first, const Corners& second);
+/// The worst at the two ends of the range that the search looks at; hinged when it is at both. Corners at rest, and how
+/// they move.
+ContactChange worst_change(const Contact& contact, const Corners& first, const Motion& of_first, const Corners& second,
+                           const Motion& of_second);
 
 }  // namespace parsel

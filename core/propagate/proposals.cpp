@@ -376,17 +376,12 @@ double price_of_relations(const Problem& problem, const Edits& edits, PartIndex 
     const double tolerance = tolerance_of(relation, moves, !edits[other]->steps.empty());
     std::optional<ContactChange> worst;
     if (const auto& contact = problem.contacts[index]) {
-      const Corners& other_rest = shape.parts[other].hexahedron.corners;
-      const bool is_first = relation.parts[0] == part;
-      for (const std::size_t s : {std::size_t{0}, sample_count - 1}) {
-        const Corners own_now = rest + motion[s], other_now = other_rest + edits[other]->motion[s];
-        const ContactChange now =
-            is_first ? change_of(*contact, own_now, other_now) : change_of(*contact, other_now, own_now);
-        if (!worst) worst = ContactChange{};
-        if (std::abs(now.apart) > std::abs(worst->apart)) worst->apart = now.apart;
-        worst->lost = std::max(worst->lost, now.lost);
-        worst->hinged = (s == 0 || worst->hinged) && now.hinged;
-      }
+      const auto change = [&](PartIndex first, const Motion& its, PartIndex second, const Motion& others) {
+        return worst_change(*contact, shape.parts[first].hexahedron.corners, its,
+                            shape.parts[second].hexahedron.corners, others);
+      };
+      const Motion& of_other = edits[other]->motion;
+      worst = relation.parts[0] == part ? change(part, motion, other, of_other) : change(other, of_other, part, motion);
     }
     cost += price_of_relation(prices, relation, by, tolerance, worst);
   }
