@@ -368,7 +368,6 @@ double price_of_relations(const Problem& problem, const Edits& edits, PartIndex 
   const Shape& shape = problem.graph.shape();
   const Prices& prices = problem.options.prices;
   const bool moves = largest_difference(motion, still()) > noise;
-  const Corners& rest = shape.parts[part].hexahedron.corners;
   double cost = 0;
   for (const auto& [index, by] : residuals(constraints, motion)) {
     const Relation& relation = shape.relations[index];
