@@ -4,8 +4,10 @@ import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { document } from '../session/session';
 import { EditsPanel } from './EditsPanel';
-import { FamilyPanel } from './FamilyPanel';
+import { lazily } from './lazily';
 import type { FeatureKind } from './words';
+
+const FamilyPanel = lazily(async () => (await import('./FamilyPanel')).FamilyPanel);
 
 export function RightPanel({ pickKind }: { readonly pickKind: Signal<FeatureKind | null> }) {
   const tab = useSignal<'family' | 'edits'>('family');
