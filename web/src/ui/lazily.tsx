@@ -1,0 +1,43 @@
+// Components that few visitors see: their code is fetched when they are shown for the first time.
+import { signal } from '@preact/signals';
+import type { ComponentType } from 'preact';
+import { useEffect } from 'preact/hooks';
+
+/** A component without properties, whose code `load` fetches. Until it is there a line says so; a failed fetch can be tried again. */
+export function lazily(load: () => Promise<ComponentType>): ComponentType {
+  const loaded = signal<ComponentType | null>(null);
+  const failed = signal(false);
+  const fetchCode = () => {
+    failed.value = false;
+    load().then(
+      (component) => {
+        loaded.value = component;
+      },
+      () => {
+        failed.value = true;
+      },
+    );
+  };
+  return function Lazily() {
+    useEffect(() => {
+      if (loaded.peek() === null) fetchCode();
+    }, []);
+    const Component = loaded.value;
+    if (Component !== null) return <Component />;
+    if (!failed.value) {
+      return (
+        <p class="quiet" role="status">
+          Loading…
+        </p>
+      );
+    }
+    return (
+      <p class="broken" role="alert">
+        This part of the page could not be fetched: is the network there?{' '}
+        <button type="button" class="quiet" onClick={fetchCode}>
+          Try again
+        </button>
+      </p>
+    );
+  };
+}
