@@ -13,6 +13,7 @@ import { dialog, openAny } from './actions';
 import { Compass } from './Compass';
 import { Composer } from './Composer';
 import { CutCard, CutHandle } from './CutCard';
+import { Dialog } from './Dialog';
 import { Dimensions } from './Dimensions';
 import { ExploreDialog } from './ExploreDialog';
 import { FirstScreen } from './FirstScreen';
@@ -21,11 +22,11 @@ import { Handles } from './Handles';
 import { HelpDialog, Licences } from './HelpDialog';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
+import { lazily } from './lazily';
 import { ModelDialog } from './ModelDialog';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { PlaceOffer } from './PlaceCard';
-import { PrintDialog } from './PrintDialog';
 import { ProgramDialog } from './ProgramDialog';
 import { ReadingsDialog } from './ReadingsDialog';
 import { RightPanel } from './RightPanel';
@@ -39,6 +40,19 @@ import { TopBar } from './TopBar';
 import { Tour, TourOffer } from './Tour';
 import { welcome } from './welcome';
 import type { FeatureKind } from './words';
+
+const PrintDialog = lazily(
+  async () => (await import('./PrintDialog')).PrintDialog,
+  (line) => (
+    <Dialog title="For printing" onClose={closeDialog}>
+      {line}
+    </Dialog>
+  ),
+);
+
+function closeDialog(): void {
+  dialog.value = null;
+}
 
 const phone = matchMedia('(max-width: 720px)');
 

@@ -1,10 +1,16 @@
 // Components that few visitors see: their code is fetched when they are shown for the first time.
 import { signal } from '@preact/signals';
-import type { ComponentType } from 'preact';
+import type { ComponentType, VNode } from 'preact';
 import { useEffect } from 'preact/hooks';
 
-/** A component without properties, whose code `load` fetches. Until it is there a line says so; a failed fetch can be tried again. */
-export function lazily(load: () => Promise<ComponentType>): ComponentType {
+/**
+ * A component without properties, whose code `load` fetches. Until it is there a line says so, inside what `around` makes of it;
+ * a failed fetch can be tried again.
+ */
+export function lazily(
+  load: () => Promise<ComponentType>,
+  around: (line: VNode) => VNode = (line) => line,
+): ComponentType {
   const loaded = signal<ComponentType | null>(null);
   const failed = signal(false);
   const fetchCode = () => {
@@ -25,19 +31,19 @@ export function lazily(load: () => Promise<ComponentType>): ComponentType {
     const Component = loaded.value;
     if (Component !== null) return <Component />;
     if (!failed.value) {
-      return (
+      return around(
         <p class="quiet" role="status">
           Loading…
-        </p>
+        </p>,
       );
     }
-    return (
+    return around(
       <p class="broken" role="alert">
         This part of the page could not be fetched: is the network there?{' '}
         <button type="button" class="quiet" onClick={fetchCode}>
           Try again
         </button>
-      </p>
+      </p>,
     );
   };
 }
