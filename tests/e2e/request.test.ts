@@ -76,7 +76,7 @@ describe('without a key', () => {
     const { page } = watched;
     await page.waitForFunction(() => parsel.stage()?.isShown() && parsel.document().layers.length > 0);
     await page.locator('.bar .model').click();
-    await page.getByRole('button', { name: 'Chair with back slats' }).click();
+    await page.getByRole('button', { name: 'Chair with back slats', exact: true }).click();
     // Without the edit that a first visit begins with.
     await page.waitForFunction(() => parsel.document().layers.length === 0 && parsel.stage()?.isShown());
     return watched;
