@@ -138,12 +138,12 @@ TEST_CASE("gaps: a file whose gaps were closed is found joined again, with the s
   Program program;
   program.shape_name = shape.name;
   program.shape_sha256 = shape.sha256;
-  Statement raise;  // the top alone: nothing follows it
-  raise.op = Op::translate;
-  raise.part = "node:0";
-  raise.direction = Vec3(Vec3::UnitY());
-  raise.amount = Amount::parameter("x1");
-  program.layers.push_back({"Raise the top.", {"x1", 0, 0.2, 0}, {raise}, {}});
+  Statement lift;  // the top alone: nothing follows it
+  lift.op = Op::translate;
+  lift.part = "node:0";
+  lift.direction = Vec3(Vec3::UnitY());
+  lift.amount = Amount::parameter("x1");
+  program.layers.push_back({"Raise the top.", {"x1", 0, 0.2, 0}, {lift}, {}});
   REQUIRE(validate(program, shape).ok());
   ApplyOptions options;
   const auto torn = apply_program(asset->glb, shape, program, {0.1}, std::nullopt, options);
