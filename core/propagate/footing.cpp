@@ -83,16 +83,18 @@ double price_of_footing(const Prices& prices, const Footing& footing, const Moti
   bool dragged = false;
   for (const std::size_t s : {std::size_t{0}, sample_count - 1}) {
     Vec3 mean = Vec3::Zero();
-    double least = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity(), most = 0;
     for (const Weights& point : footing.points) {
       Vec3 moved = interpolate(point, motion[s]);
       off = std::max(off, moved.cwiseProduct(footing.mask).cwiseAbs().maxCoeff());
       moved.y() = 0;
-      mean += moved / static_cast<double>(footing.points.size());
       least = std::min(least, moved.norm());
+      most = std::max(most, moved.norm());
+      mean += moved / static_cast<double>(footing.points.size());
     }
-    // What stretches to both sides, or away from an end that stays, is not dragged.
-    dragged = dragged || (std::isfinite(least) && std::min(least, mean.norm()) > exact);
+    // What stretches to both sides, or away from where it stands, is not dragged, also when no point of it stays quite
+    // where it was.
+    dragged = dragged || (most > exact && std::min(least, mean.norm()) >= most / 2);
   }
   return (off > exact ? prices.broken_ground : 0) + (dragged ? prices.dragged * footing.share : 0);
 }

@@ -138,7 +138,7 @@ TEST_CASE("a door opens on its hinges and takes its handle along; the cabinet an
                         {{{"op", "rotate"},
                           {"part", "door_left"},
                           {"origin", {hinge.x(), hinge.y(), hinge.z()}},
-                          {"direction", {0, 1, 0}},
+                          {"axis", {0, 1, 0}},
                           {"amount", "x"}}}}});
   };
   // On the outer edge behind, within the door, and in front of it.
