@@ -51,9 +51,7 @@ struct Question {
   /// Whether all that stands, or, where nothing does, all, moves by one rigid motion.
   bool moves_as_one(const Edits& edits) const {
     std::vector<PartIndex> body;
-    for (const auto& [part, footing] : feet) {
-      if (!is_seed(part)) body.push_back(part);
-    }
+    for (const auto& [part, footing] : feet) body.push_back(part);
     if (feet.empty()) {
       for (const PartIndex part : graph.parts()) {
         if (!graph.relations(part).empty() || is_seed(part)) body.push_back(part);
