@@ -57,7 +57,7 @@ describe('JSON from outside', () => {
       'llm/structure.ts', // copies a schema
       'session/tab_name.ts',
       'worker/client.ts', // the core's replies
-      'worker/decompress.ts', // files.ts has read it before
+      'formats/read_gltf.ts', // session/files.ts has read it before
     ];
     const runtime = '../runtime/src';
     const pathsIn = (folder: string) => readdirSync(join(src, folder), { recursive: true, encoding: 'utf8' });
