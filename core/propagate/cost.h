@@ -24,7 +24,7 @@ struct Prices {
   /// … on top, for the share of the contact that is gone.
   double slide_lost = 4;
   /// A joint that turns about an edge of its contact: what a door or a lid does. Cheaper than to slide, dearer than what
-  /// keeps the whole joint.
+  /// keeps the whole joint; chosen, not measured.
   double hinge = 1.5;
   double broken_mirror = 4;
   /// Mirror images one above the other: what stands on the floor grows away from it, and its upper half is seldom asked
@@ -33,8 +33,7 @@ struct Prices {
   /// Feet that leave the floor or sink into it.
   double broken_ground = 5;
   /// What stands on the floor and is moved to another place, for its share of the shape's extent there: a leg goes where
-  /// its table needs it, a whole cabinet does not follow its door. Below 4 it does; above 8 the pedestals of a desk stay
-  /// when its top grows.
+  /// its table needs it, a whole cabinet does not follow its door. Chosen between the two, not measured against others.
   double dragged = 6;
   /// A relation that is off by less than its tolerance: for each half-diagonal.
   double slack = 60;

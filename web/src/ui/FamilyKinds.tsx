@@ -7,7 +7,7 @@ import type { FamilyState } from '../session/family_state';
 import { kinds } from '../session/kind_suggestions';
 import type { AskedKinds, KindCard } from '../session/kinds';
 import { task } from '../session/session';
-import { dialog } from './actions';
+import { AskFailure } from './AskFailure';
 import { Icon } from './Icon';
 import { drawKinds, kindPictures } from './kind_pictures';
 import { listWords } from './words';
@@ -92,17 +92,7 @@ export function FamilyKinds({ family }: { family: FamilyState }) {
         </button>
       </header>
       <Progress asked={asked} />
-      {asked.failure && (
-        <div class="failed" role="alert">
-          <Icon name="warning" />
-          <p class="grow">{asked.failure.text}</p>
-          {asked.failure.isSetting && (
-            <button type="button" class="button outlined" onClick={() => (dialog.value = 'model')}>
-              Settings
-            </button>
-          )}
-        </div>
-      )}
+      {asked.failure && <AskFailure {...asked.failure} />}
       <ul class="cards kinds">
         {asked.cards.map((card) =>
           card.state.kind === 'named' ? null : (

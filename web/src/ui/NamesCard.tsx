@@ -8,7 +8,7 @@ import { names } from '../session/name_suggestions';
 import type { NameRow, Naming } from '../session/naming';
 import { suggestFront } from '../session/placing';
 import { document, pointedAt, task } from '../session/session';
-import { dialog } from './actions';
+import { AskFailure } from './AskFailure';
 import { Icon } from './Icon';
 import { paintNumbered } from './pictures';
 
@@ -35,17 +35,7 @@ export function NamesCard() {
         </button>
       </header>
       {naming.progress !== null && <Waiting naming={naming} />}
-      {naming.failure && (
-        <div class="failed" role="alert">
-          <Icon name="warning" />
-          <p class="grow">{naming.failure.text}</p>
-          {naming.failure.isSetting && (
-            <button type="button" class="button outlined" onClick={() => (dialog.value = 'model')}>
-              Settings
-            </button>
-          )}
-        </div>
-      )}
+      {naming.failure && <AskFailure {...naming.failure} />}
       {naming.rows.length > 0 && <Names naming={naming} />}
     </section>
   );

@@ -6,7 +6,7 @@ import { playOnce } from '../session/play';
 import type { Asked } from '../session/proposals';
 import { isClean } from '../session/proposals';
 import { suggestions } from '../session/suggestions';
-import { dialog } from './actions';
+import { AskFailure } from './AskFailure';
 import { Icon } from './Icon';
 import { drawStrips, paintNumbered } from './pictures';
 import { SuggestCard } from './SuggestCard';
@@ -52,17 +52,7 @@ export function SuggestPanel() {
         </button>
       </header>
       <Progress asked={asked} />
-      {asked.failure && (
-        <div class="failed" role="alert">
-          <Icon name="warning" />
-          <p class="grow">{asked.failure.text}</p>
-          {asked.failure.isSetting && (
-            <button type="button" class="button outlined" onClick={() => (dialog.value = 'model')}>
-              Settings
-            </button>
-          )}
-        </div>
-      )}
+      {asked.failure && <AskFailure {...asked.failure} />}
       <ul class="cards">
         {open.map((proposal, i) => (
           <SuggestCard
