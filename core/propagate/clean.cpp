@@ -18,14 +18,6 @@ constexpr double decimals = 1e4;
 constexpr int most_rounds = 8;  ///< of a proof that finds something between the steps
 constexpr double step_back = 0.97;
 
-std::set<std::string> disabled_in(const Layer& layer) {
-  std::set<std::string> ids;
-  for (const RelationReport& report : layer.relations) {
-    if (report.status == RelationStatus::disabled) ids.insert(report.id);
-  }
-  return ids;
-}
-
 /// Whether relations of a program's layer keep their tolerance, by numbers at single places.
 class Watch {
  public:

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/shape/hexahedron.h"
+#include "core/shape/hexahedron_extent.h"
 
 namespace parsel {
 
@@ -17,42 +18,8 @@ constexpr double deep = 0.6;
 
 using Frame3 = std::array<Vec3, 3>;
 
-/// Unit normals of a hexahedron's faces, by local axis, for boxes that may be sheared.
 Frame3 face_normals(const Corners& corners) {
-  Frame3 edges;
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec3 edge = Vec3::Zero();
-    for (int k = 0; k < 8; ++k) edge += corner_sign(k, axis) * corners.row(k).transpose();
-    edges[static_cast<std::size_t>(axis)] = edge;
-  }
-  Frame3 normals;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Vec3 normal = edges[(axis + 1) % 3].cross(edges[(axis + 2) % 3]);
-    const double length = normal.norm();
-    normals[axis] = length > 1e-12 ? Vec3(normal / length * (normal.dot(edges[axis]) < 0 ? -1 : 1)) : Vec3::Zero();
-  }
-  return normals;
-}
-
-struct Extent {
-  double low = 0, high = 0;
-  double length() const { return high - low; }
-  double middle() const { return (low + high) / 2; }
-};
-
-Extent extent_along(const Corners& corners, const Vec3& direction) {
-  const Eigen::Matrix<double, 8, 1> along = corners * direction;
-  return {along.minCoeff(), along.maxCoeff()};
-}
-
-double common(const Extent& a, const Extent& b) {
-  return std::min(a.high, b.high) - std::max(a.low, b.low);
-}
-
-double least_extent(const Corners& corners, const Frame3& normals) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vec3& normal : normals) least = std::min(least, extent_along(corners, normal).length());
-  return least;
+  return axes_of(corners).normals;
 }
 
 /// The weights of a point in a box at rest.
@@ -93,10 +60,9 @@ void add_rectangle(Contact& contact, const Corners& first, const Corners& second
     contact.rectangle_first[k] = weights_in(first, point);
     contact.rectangle_second[k] = weights_in(second, point);
   }
-  const Frame3 normals_first = face_normals(first), normals_second = face_normals(second);
-  contact.thickness = std::min(least_extent(first, normals_first), least_extent(second, normals_second));
-  contact.normals_first = as_columns(normals_first);
-  contact.normals_second = as_columns(normals_second);
+  contact.thickness = std::min(thickness(first), thickness(second));
+  contact.normals_first = as_columns(face_normals(first));
+  contact.normals_second = as_columns(face_normals(second));
 }
 
 /// A turn by less than this, in radians, is none.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/tolerance.h"
-#include "core/propagate/transfer.h"
+#include "core/propagate/layer_writer.h"
 #include "core/prove/slack.h"
 
 namespace parsel {
@@ -33,7 +33,8 @@ class Writer {
       write(*decision, edited, state.edits);
       if (!decision->left_alone) edited.push_back(decision->part);
     }
-    for (const PartIndex part : held_) write_held(part, state.edits);
+    for (const PartIndex part : held_)
+      trace_.steps.push_back(held_step(layer_, graph_, state.edits, part, request_.hints.count(part) > 0));
     show_dissolved_groups();
   }
 
@@ -74,42 +75,11 @@ class Writer {
       trace.kind = "left_alone";
     } else if (decision.chosen.rest) {
       trace.kind = "keep_fixed";
-      trace.statements.push_back(add_keep_fixed(part, Why{WhyKind::breaking, trace.left_broken}));
+      trace.statements.push_back(add_keep_fixed(layer_, shape_, part, Why{WhyKind::breaking, trace.left_broken}));
     } else {
       trace.kind = to_string(decision.chosen.kind);
-      const std::vector<PartIndex> sources = reference_parts(part, edited);
-      for (const Step& step : decision.chosen.steps) {
-        Statement statement = to_statement(shape_, part, step, sources);
-        statement.why = Why{decision.chosen.kind, broken};
-        trace.statements.push_back(static_cast<int>(layer_.statements.size()));
-        layer_.statements.push_back(std::move(statement));
-      }
-    }
-    trace_.steps.push_back(std::move(trace));
-  }
-
-  /// A held part that an edited neighbour pulls at gets its keep_fixed, so that the program shows the decision.
-  void write_held(PartIndex part, const Edits& edits) {
-    std::vector<PointConstraint> constraints;
-    for (const RelationIndex relation : graph_.relations(part)) {
-      const PartIndex other = graph_.other(relation, part);
-      if (edits[other] && !edits[other]->steps.empty()) add_constraints(graph_, relation, part, edits, constraints);
-    }
-    TraceStep trace;
-    trace.part = id(part);
-    trace.kind = "keep_fixed";
-    trace.held = true;
-    const bool by_hint = request_.hints.count(part) > 0;
-    if (by_hint) trace.hint = "keep_fixed";
-    for (const auto& [relation, by] : residuals(constraints, still())) {
-      trace.pulled_by.push_back({id(relation), by});
-      if (by > delta_one_edited) trace.left_broken.push_back(id(relation));
-    }
-    trace.result = trace.pulled_by;
-    trace.why = by_hint ? "a hint keeps it fixed" : "it belongs to the body of the model, which stays";
-    if (!trace.left_broken.empty()) {
-      Why why{WhyKind::breaking, trace.left_broken};
-      trace.statements.push_back(add_keep_fixed(part, std::move(why)));
+      trace.statements = add_steps(layer_, shape_, part, decision.chosen.steps, reference_parts(part, edited),
+                                   Why{decision.chosen.kind, broken});
     }
     trace_.steps.push_back(std::move(trace));
   }
@@ -129,18 +99,9 @@ class Writer {
       trace.kind = "keep_fixed";
       trace.held = true;
       trace.why = "its group is taken apart, and nothing pulls at it";
-      trace.statements.push_back(add_keep_fixed(instances[0], Why{WhyKind::group, {}}));
+      trace.statements.push_back(add_keep_fixed(layer_, shape_, instances[0], Why{WhyKind::group, {}}));
       trace_.steps.push_back(std::move(trace));
     }
-  }
-
-  int add_keep_fixed(PartIndex part, Why why) {
-    Statement statement;
-    statement.op = Op::keep_fixed;
-    statement.part = id(part);
-    statement.why = std::move(why);
-    layer_.statements.push_back(std::move(statement));
-    return static_cast<int>(layer_.statements.size()) - 1;
   }
 
   /// Whose points and axes a statement on the part may name, the nearest first: the part's own, its neighbours', those

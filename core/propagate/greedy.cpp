@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/propagate/layer_writer.h"
 #include "core/propagate/seeds.h"
 #include "core/propagate/solve_part.h"
 #include "core/propagate/transfer.h"
@@ -151,7 +152,7 @@ class Loop : public Attempt {
 
   /// The program and its proof. After search(), once.
   Propagation finish() override {
-    note_fixed_parts();
+    for (const PartIndex part : held_) trace_.steps.push_back(held_step(layer_, graph_, edits_, part, true));
     for (std::string& note : unused_hints(graph_, request_)) trace_.notes.push_back(std::move(note));
     trace_.stop = why_it_stopped(graph_, edits_);
     return finished(shape_, request_, options_, at_, std::move(layer_), std::move(trace_), progress_);
@@ -196,36 +197,6 @@ class Loop : public Attempt {
     }
     // Their neighbours must respect them, but nothing is broken by them yet.
     for (const PartIndex part : held_) pull_neighbours(part);
-  }
-
-  /// A held part that an edited neighbour pulls at gets its keep_fixed, so that the program shows the decision.
-  void note_fixed_parts() {
-    for (const PartIndex part : held_) {
-      std::vector<PointConstraint> constraints;
-      for (const RelationIndex relation : graph_.relations(part)) {
-        const PartIndex other = graph_.other(relation, part);
-        if (edits_[other] && !edits_[other]->steps.empty())
-          add_constraints(graph_, relation, part, edits_, constraints);
-      }
-      const RelationResiduals off = residuals(constraints, still());
-      TraceStep trace;
-      trace.part = id(part);
-      trace.kind = "keep_fixed";
-      trace.hint = "keep_fixed";
-      trace.held = true;
-      for (const auto& [relation, by] : off) {
-        trace.pulled_by.push_back({id(relation), by});
-        if (slack_of(shape_.relations[relation], by, false, false) == Slack::broken)
-          trace.left_broken.push_back(id(relation));
-      }
-      trace.result = trace.pulled_by;
-      trace.why = "a hint keeps it fixed";
-      if (!trace.left_broken.empty()) {
-        Why why{WhyKind::breaking, trace.left_broken};
-        trace.statements.push_back(add_keep_fixed(part, std::move(why)));
-      }
-      trace_.steps.push_back(std::move(trace));
-    }
   }
 
   bool is_in_graph(PartIndex part) const {
@@ -316,15 +287,10 @@ class Loop : public Attempt {
     }
     if (solution.outcome == Outcome::keep_fixed) {
       trace.kind = "keep_fixed";
-      trace.statements.push_back(add_keep_fixed(part, Why{WhyKind::breaking, trace.left_broken}));
+      trace.statements.push_back(add_keep_fixed(layer_, shape_, part, Why{WhyKind::breaking, trace.left_broken}));
     } else {
-      trace.kind = kind_name(solution.kind);
-      for (const Step& step : solution.steps) {
-        Statement statement = to_statement(shape_, part, step, sources);
-        statement.why = Why{solution.kind, broken};
-        trace.statements.push_back(static_cast<int>(layer_.statements.size()));
-        layer_.statements.push_back(std::move(statement));
-      }
+      trace.kind = to_string(solution.kind);
+      trace.statements = add_steps(layer_, shape_, part, solution.steps, sources, Why{solution.kind, broken});
     }
     edits_[part] = std::make_shared<const PartEdit>(PartEdit{std::move(solution.steps), motion});
     trace_.steps.push_back(std::move(trace));
@@ -369,33 +335,6 @@ class Loop : public Attempt {
       if (edits_[other]) sources.push_back(other);
     }
     return sources;
-  }
-
-  int add_keep_fixed(PartIndex part, Why why) {
-    Statement statement;
-    statement.op = Op::keep_fixed;
-    statement.part = id(part);
-    statement.why = std::move(why);
-    layer_.statements.push_back(std::move(statement));
-    return static_cast<int>(layer_.statements.size()) - 1;
-  }
-
-  static std::string kind_name(WhyKind kind) {
-    switch (kind) {
-      case WhyKind::seed:
-        return "seed";
-      case WhyKind::symmetry:
-        return "symmetry";
-      case WhyKind::attachment:
-        return "attachment";
-      case WhyKind::neighbour:
-        return "neighbour";
-      case WhyKind::breaking:
-        return "breaking";
-      case WhyKind::group:
-        return "group";
-    }
-    return "";
   }
 
   const Shape& shape_;

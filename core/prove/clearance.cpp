@@ -3,12 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "core/base/tolerance.h"
 #include "core/prove/scope.h"
 #include "core/shape/hexahedron.h"
+#include "core/shape/hexahedron_extent.h"
 
 namespace parsel {
 
@@ -17,43 +19,24 @@ namespace {
 /// Cross products of edges shorter than this have no direction.
 constexpr double parallel = 1e-6;
 
-/// Unit mean edges and unit normals of a hexahedron's faces, by local axis.
-struct Axes {
-  std::array<Vec3, 3> edges, normals;
+/// What two boxes have in common, or what lies between them.
+struct Overlap {
+  double depth = std::numeric_limits<double>::infinity();  ///< negative: by how much they are apart at least
+  double volume = 0;  ///< about: the depth times the extents that both have across it
 };
 
-Axes axes_of(const Corners& corners) {
-  Axes axes;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Vec3 edge = Vec3::Zero();
-    for (int k = 0; k < 8; ++k) edge += corner_sign(k, static_cast<int>(axis)) * corners.row(k).transpose();
-    axes.edges[axis] = edge.normalized();
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    axes.normals[axis] = axes.edges[(axis + 1) % 3].cross(axes.edges[(axis + 2) % 3]).normalized();
-  return axes;
-}
-
-struct Extent {
-  double low, high;
-};
-
-Extent extent_along(const Corners& corners, const Vec3& direction) {
-  const Eigen::Matrix<double, 8, 1> along = corners * direction;
-  return {along.minCoeff(), along.maxCoeff()};
-}
-
-/// How far one must move along a direction to be out of the other; negative when it is.
-double overlap_along(const Corners& a, const Corners& b, const Vec3& direction) {
-  const Extent first = extent_along(a, direction), second = extent_along(b, direction);
-  return std::min(first.high - second.low, second.high - first.low);
-}
-
-/// The depth of the overlap of two boxes; negative: by how much they are apart at least.
-double depth(const Corners& a, const Corners& b) {
-  const Axes first = axes_of(a), second = axes_of(b);
-  double least = std::numeric_limits<double>::infinity();
-  const auto look = [&](const Vec3& direction) { least = std::min(least, overlap_along(a, b, direction)); };
+Overlap overlap_of(const Corners& a, const Corners& b) {
+  const HexahedronAxes first = axes_of(a), second = axes_of(b);
+  Overlap least;
+  Vec3 along = Vec3::Zero();
+  const auto look = [&](const Vec3& direction) {
+    const Extent of_a = extent_along(a, direction), of_b = extent_along(b, direction);
+    // How far one must move to be out of the other; negative when it is.
+    const double depth = std::min(of_a.high - of_b.low, of_b.high - of_a.low);
+    if (depth >= least.depth) return;
+    least.depth = depth;
+    along = direction;
+  };
   for (const Vec3& normal : first.normals) look(normal);
   for (const Vec3& normal : second.normals) look(normal);
   for (const Vec3& edge : first.edges) {
@@ -62,6 +45,15 @@ double depth(const Corners& a, const Corners& b) {
       if (across.norm() > parallel) look(across.normalized());
     }
   }
+  if (least.depth <= 0) return least;
+  const auto lies_across = [&](const Vec3& p, const Vec3& q) {
+    return std::abs(p.dot(along)) < std::abs(q.dot(along));
+  };
+  const Vec3 edge = *std::min_element(first.edges.begin(), first.edges.end(), lies_across);
+  const Vec3 across = (edge - edge.dot(along) * along).normalized(), third = along.cross(across);
+  least.volume = least.depth;
+  for (const Vec3& side : {across, third})
+    least.volume *= std::max(0.0, common(extent_along(a, side), extent_along(b, side)));
   return least;
 }
 
@@ -79,15 +71,6 @@ double surfaces_apart(const ContactPatch& patch, const Corners& a, const Corners
     least = std::min(least, (on_b - on_a[k]).dot(normal));
   }
   return std::max(0.0, least);
-}
-
-double thickness(const Corners& corners) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vec3& normal : axes_of(corners).normals) {
-    const Extent extent = extent_along(corners, normal);
-    least = std::min(least, extent.high - extent.low);
-  }
-  return least;
 }
 
 }  // namespace
@@ -147,13 +130,14 @@ void Clearance::find_overlaps(const std::vector<Body>& now, std::vector<Fault>& 
       if (edited_.count(body.part) == 0 && edited_.count(other.part) == 0) continue;
       if (body.group == other.group && body.group != none) continue;
       if ((body.low.array() > other.high.array()).any() || (other.low.array() > body.high.array()).any()) continue;
-      const double deep = depth(body.corners, other.corners);
-      if (deep <= seen_depth) continue;
+      const Overlap overlap = overlap_of(body.corners, other.corners);
+      if (overlap.depth <= 0 || (overlap.depth <= seen_depth && overlap.volume <= seen_volume)) continue;
       const Corners& rest = at_rest_.parts[body.part];
       const Corners& rest_of_other = at_rest_.parts[other.part];
       const double slight = std::min(delta_both_edited, std::min(thickness(rest), thickness(rest_of_other)) / 2);
-      const double before = depth(rest, rest_of_other);
-      if (before > slight || deep <= seen_depth + std::max(before, 0.0)) continue;
+      const Overlap before = overlap_of(rest, rest_of_other);
+      if (before.depth > slight) continue;
+      if (before.depth > -seen_gap && overlap.depth <= seen_depth + std::max(before.depth, 0.0)) continue;
       found.push_back({body.part, other.part, false});
     }
     open.push_back(i);
@@ -169,7 +153,7 @@ void Clearance::find_gaps(const State& state, std::vector<Fault>& found) const {
     if (has_changed_count(a, state) || has_changed_count(b, state)) continue;
     const auto& patch = std::get<Attachment>(relation.detail).patch;
     const auto apart = [&](const State& s) {
-      const double boxes = std::max(0.0, -depth(s.parts[a], s.parts[b]));
+      const double boxes = std::max(0.0, -overlap_of(s.parts[a], s.parts[b]).depth);
       return patch ? std::max(boxes, surfaces_apart(*patch, s.parts[a], s.parts[b])) : boxes;
     };
     const double gap = apart(state);

@@ -16,6 +16,9 @@ namespace parsel {
 
 /// Below these nobody sees anything; half-diagonals.
 inline constexpr double seen_depth = 0.008, seen_gap = 0.014;
+/// Of two parts that were apart, neither is anything seen while they have less in common than a cube of 0.027; two legs
+/// whose whole sides meet have more, however little deep. Half-diagonals, cubed.
+inline constexpr double seen_volume = 2e-5;
 
 /// Parts are seen as their hexahedra, the instances of a group one by one. Two that overlap at rest, by more than half
 /// of the thinner one's thickness or by delta_both_edited, are not looked at, as the box of a whole cabinet holds its
@@ -32,7 +35,8 @@ class Clearance {
   Clearance(const Shape& shape, const Program& program, std::size_t layer);
 
   /// The first thing that is wrong where the layer's parameter is x, a clause for people; empty when nothing is:
-  ///   * two parts, at least one of them edited, overlap deeper than at 0 by more than seen_depth;
+  ///   * two parts, at least one of them edited, overlap deeper than at 0 by more than seen_depth, or, if they were apart
+  ///     by seen_gap at 0, by more than seen_volume;
   ///   * two parts that are joined, at least one of them edited, are apart by seen_gap more than at 0.
   /// Time grows with n log n of n parts and with the pairs whose bounding boxes overlap.
   std::string fault(double x) const;

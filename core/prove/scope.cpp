@@ -60,6 +60,14 @@ bool is_judged(const Shape& shape, RelationIndex relation, const std::vector<Rel
   return is_judged(shape, relation, dissolved, mirrored_pairs(shape, dissolved));
 }
 
+std::set<std::string> disabled_in(const Layer& layer) {
+  std::set<std::string> ids;
+  for (const RelationReport& report : layer.relations) {
+    if (report.status == RelationStatus::disabled) ids.insert(report.id);
+  }
+  return ids;
+}
+
 bool is_disabled(const Relation& relation, const std::set<std::string>& disabled) {
   return disabled.count(relation.id) > 0 || disabled.count("kind:" + std::string(to_string(relation.kind))) > 0;
 }

@@ -35,6 +35,9 @@ struct Scope {
 /// But for the relations of two instances of one standing group: their place in it is what the group says.
 bool is_judged(const Shape& shape, RelationIndex relation, const std::vector<RelationIndex>& dissolved);
 
+/// What the layer's report calls disabled: ids of relations.
+std::set<std::string> disabled_in(const Layer& layer);
+
 /// Whether `disabled` holds the relation's id, or "kind:" and its kind.
 bool is_disabled(const Relation& relation, const std::set<std::string>& disabled);
 

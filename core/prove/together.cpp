@@ -17,15 +17,6 @@ namespace {
 constexpr const char* stage = "prove/together";
 constexpr double decimals = 1e4;
 
-/// What the layers' reports call disabled.
-std::set<std::string> disabled_in(const Layer& layer) {
-  std::set<std::string> ids;
-  for (const RelationReport& report : layer.relations) {
-    if (report.status == RelationStatus::disabled) ids.insert(report.id);
-  }
-  return ids;
-}
-
 double drawn(const Parameter& parameter, Random& random) {
   const double value = random.uniform(parameter.min, parameter.max);
   return std::clamp(std::round(value * decimals) / decimals, parameter.min, parameter.max);
