@@ -4,6 +4,7 @@
 
 #include "core/base/random.h"
 #include "core/shape/hexahedron.h"
+#include "core/shape/hexahedron_extent.h"
 #include "core/shape/oriented_box.h"
 #include "tests/core/glb_fixture.h"
 
@@ -91,4 +92,32 @@ TEST_CASE("flat panels and wires get a volume") {
   const Vec3 half = oriented_box(part(wire)).half_extents();
   CHECK(half.minCoeff() == doctest::Approx(min_half_extent));
   CHECK(half.maxCoeff() == doctest::Approx(0.5));
+}
+
+TEST_CASE("extents, axes and thickness of a turned, a sheared and a flat box") {
+  const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(3, -1, 2).normalized()).toRotationMatrix();
+  Corners corners = make_box({1, 2, 3}, turn, {0.5, 0.25, 0.1}).corners;
+  const HexahedronAxes axes = axes_of(corners);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 own = turn.row(axis).transpose();
+    CHECK((axes.edges[axis] - own).norm() < 1e-12);
+    CHECK((axes.normals[axis] - own).norm() < 1e-12);
+    CHECK(extent_along(corners, own).length() == doctest::Approx(axis == 0 ? 1 : axis == 1 ? 0.5 : 0.2));
+    CHECK(extent_along(corners, own).middle() == doctest::Approx(own.dot(Vec3(1, 2, 3))));
+  }
+  CHECK(thickness(corners) == doctest::Approx(0.2));
+
+  // A panel whose upper side is pushed aside keeps its thickness: its normals are not its edges.
+  Corners panel = make_box({0, 0, 0}, Mat3::Identity(), {1, 0.05, 1}).corners;
+  for (int k = 0; k < 8; ++k) panel(k, 0) += 2 * panel(k, 1);
+  CHECK(thickness(panel) == doctest::Approx(0.1));
+  CHECK((axes_of(panel).normals[1] - Vec3::UnitY()).norm() < 1e-12);
+  CHECK(axes_of(panel).edges[1].dot(Vec3::UnitX()) == doctest::Approx(2 / std::sqrt(5)));
+
+  Corners flat = make_box({0, 0, 0}, Mat3::Identity(), {1, 0, 1}).corners;
+  CHECK(axes_of(flat).edges[1] == Vec3::Zero());
+  CHECK(axes_of(flat).normals[0] == Vec3::Zero());
+
+  CHECK(common({0, 2}, {1, 5}) == 1);
+  CHECK(common({0, 2}, {3, 5}) == -1);
 }

@@ -102,15 +102,23 @@ TEST_CASE("a slider ends where parts run into each other that did not touch") {
   s.box("block", {0, 0, 0}, {0.1, 0.1, 0.1});
   s.box("wall", {0.7, 0, 0}, {0.05, 0.5, 0.5});
   const Shape shape = s.shape();
-  // 0.55 of room, and what nobody sees.
+  // 0.55 of room, and what nobody sees: sides of 0.2 by 0.2 meet.
+  const double room = 0.55 + seen_volume / (0.2 * 0.2);
   const Program pushed = hand::program(shape, {statement(Op::translate, "block", Vec3::UnitX(), "x1")});
   const SliderReach found = reach(shape, pushed, -1, 1);
-  CHECK(found.range.max == doctest::Approx(0.55 + seen_depth).epsilon(1e-3));
+  CHECK(found.range.max == doctest::Approx(room).epsilon(1e-3));
   CHECK(found.range.max_reason == "block and wall would run into each other");
   CHECK(found.range.min == -1);
+  // What touches already goes into it a little deeper until it is seen.
+  test::BoxShape t;
+  t.box("block", {0.55, 0, 0}, {0.1, 0.1, 0.1});
+  t.box("wall", {0.7, 0, 0}, {0.05, 0.5, 0.5});
+  const Shape touching = t.shape();
+  const Program pressed = hand::program(touching, {statement(Op::translate, "block", Vec3::UnitX(), "0.02*x1")});
+  CHECK(reach(touching, pressed, -1, 1).range.max == doctest::Approx(seen_depth / 0.02).epsilon(1e-3));
   // Twice as fast it ends half as far.
   const Program rammed = hand::program(shape, {statement(Op::translate, "block", Vec3::UnitX(), "2*x1")});
-  CHECK(reach(shape, rammed, -1, 1).range.max == doctest::Approx((0.55 + seen_depth) / 2).epsilon(1e-3));
+  CHECK(reach(shape, rammed, -1, 1).range.max == doctest::Approx(room / 2).epsilon(1e-3));
   CHECK(reach(shape, rammed, -1, 1).range.min == -1);
   // What is in the wall from the start may go on, but no farther than the search looked.
   const Program shot = hand::program(shape, {statement(Op::translate, "block", Vec3::UnitX(), "6*x1")});
