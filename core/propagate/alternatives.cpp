@@ -93,6 +93,7 @@ class Alternatives : public Attempt {
       verdict.shapes += std::max(price_of_strain(rest, rest + all[part]->motion.front()),
                                  price_of_strain(rest, rest + all[part]->motion.back()));
       for (const Step& step : steps) verdict.shapes += step.what.op == Op::shear ? problem.options.prices.slant : 0;
+      if (edits[part] && steps.empty() && is_to_move(part)) verdict.shapes += problem.options.prices.rest_against_hint;
     }
     if (is_pointless(graph_, request_, seeds_, feet_, edits)) verdict.relations += problem.options.prices.all_rigid;
     return verdict;
@@ -122,6 +123,12 @@ class Alternatives : public Attempt {
       problem.footings[part] = std::move(footing);
     }
     return problem;
+  }
+
+  /// Whether a hint says what the part is to do, so that it is no part of what stays.
+  bool is_to_move(PartIndex part) const {
+    const auto hint = request_.hints.find(part);
+    return hint != request_.hints.end() && hint->second != Hint::keep_fixed;
   }
 
   /// Parts that a hint keeps fixed.
@@ -166,7 +173,7 @@ class Alternatives : public Attempt {
     }
     Restriction standing_parts = free;
     for (const auto& [part, footing] : feet_) {
-      if (!is_seed(part)) standing_parts.held.insert(part);
+      if (!is_seed(part) && !is_to_move(part)) standing_parts.held.insert(part);
     }
     if (standing_parts.held.size() > free.held.size()) consider(standing_parts);
     Restriction feet = free;
@@ -226,7 +233,8 @@ class Alternatives : public Attempt {
     std::set<PartIndex> stays;
     for (const PartIndex part : neighbours_of(nearest)) {
       const int number = piece[part];
-      if (number == largest || stands[static_cast<std::size_t>(number)]) stays.insert(part);
+      const bool is_body = number == largest || stands[static_cast<std::size_t>(number)];
+      if (is_body && !is_to_move(part)) stays.insert(part);
     }
     return stays;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "core/base/tolerance.h"
 
@@ -12,8 +13,8 @@ namespace {
 
 using Pulls = std::vector<PointConstraint>;
 
-/// A broken mirror image side by side, number of broken relations.
-using Urgency = std::pair<bool, int>;
+/// A hint says what the part is to do; a broken mirror image side by side; number of broken relations.
+using Urgency = std::tuple<bool, bool, int>;
 
 struct LeftAlone {
   std::size_t pulls = 0;  ///< constraints seen
@@ -102,13 +103,14 @@ class Beam {
       if (state.edits[other]) continue;
       auto pulls = state.pulls[other] ? std::make_shared<Pulls>(*state.pulls[other]) : std::make_shared<Pulls>();
       add_constraints(problem_.graph, relation, other, state.edits, *pulls);
-      Urgency urgency{false, 0};
+      bool mirror = false;
+      int broken = 0;
       for (const auto& [index, by] : residuals(*pulls, still())) {
         if (by <= exact) continue;
-        urgency.first = urgency.first || is_side_by_side(index);
-        ++urgency.second;
+        mirror = mirror || is_side_by_side(index);
+        ++broken;
       }
-      state.urgency[other] = urgency;
+      state.urgency[other] = {hints_.count(other) > 0, mirror, broken};
       state.pulls[other] = std::move(pulls);
     }
   }
@@ -122,7 +124,7 @@ class Beam {
     std::optional<PartIndex> best;
     for (const PartIndex part : problem_.graph.parts()) {
       const Urgency& urgency = state.urgency[part];
-      if (state.edits[part] || urgency.second == 0) continue;
+      if (state.edits[part] || std::get<int>(urgency) == 0) continue;
       const auto alone = state.left_alone.find(part);
       if (alone != state.left_alone.end() && alone->second.pulls == state.pulls[part]->size()) continue;
       if (!best || urgency > state.urgency[*best] ||
