@@ -111,7 +111,9 @@ class Alternatives : public Attempt {
                     at_,
                     solve,
                     RelationData<std::optional<Contact>>(shape_.relations.size()),
-                    PartData<std::optional<Footing>>(shape_.parts.size())};
+                    PartData<std::optional<Footing>>(shape_.parts.size()),
+                    {request_.seed_parts.begin(), request_.seed_parts.end()},
+                    asked_to_turn()};
     for (const RelationIndex r : shape_.relations.indices()) {
       const Relation& relation = shape_.relations[r];
       if (!relation.is_attachment()) continue;
@@ -125,10 +127,30 @@ class Alternatives : public Attempt {
     return problem;
   }
 
-  /// Whether a hint says what the part is to do, so that it is no part of what stays.
+  /// Whether the part has to do what a hint says, or what its mirror image was asked for, so that it is no part of what
+  /// stays.
+  bool is_asked_to_move(PartIndex part) const {
+    const auto& relations = graph_.relations(part);
+    return is_to_move(part) || std::any_of(relations.begin(), relations.end(), [&](RelationIndex r) {
+             return shape_.relations[r].kind == RelationKind::reflection && is_seed(graph_.other(r, part));
+           });
+  }
+
+  /// Whether a hint says what the part is to do.
   bool is_to_move(PartIndex part) const {
     const auto hint = request_.hints.find(part);
     return hint != request_.hints.end() && hint->second != Hint::keep_fixed;
+  }
+
+  std::set<PartIndex> asked_to_turn() const {
+    std::set<PartIndex> turning;
+    for (std::size_t i = 0; i < request_.seed.size(); ++i) {
+      if (request_.seed[i].op == Op::rotate) turning.insert(request_.seed_parts[i]);
+    }
+    for (const auto& [part, hint] : request_.hints) {
+      if (hint == Hint::rotate) turning.insert(part);
+    }
+    return turning;
   }
 
   /// Parts that a hint keeps fixed.
@@ -173,7 +195,7 @@ class Alternatives : public Attempt {
     }
     Restriction standing_parts = free;
     for (const auto& [part, footing] : feet_) {
-      if (!is_seed(part) && !is_to_move(part)) standing_parts.held.insert(part);
+      if (!is_seed(part) && !is_asked_to_move(part)) standing_parts.held.insert(part);
     }
     if (standing_parts.held.size() > free.held.size()) consider(standing_parts);
     Restriction feet = free;
@@ -234,7 +256,7 @@ class Alternatives : public Attempt {
     for (const PartIndex part : neighbours_of(nearest)) {
       const int number = piece[part];
       const bool is_body = number == largest || stands[static_cast<std::size_t>(number)];
-      if (is_body && !is_to_move(part)) stays.insert(part);
+      if (is_body && !is_asked_to_move(part)) stays.insert(part);
     }
     return stays;
   }

@@ -142,7 +142,7 @@ ContactChange worst_change(const Contact& contact, const Corners& first, const M
   ContactChange worst = change_of(contact, first + of_first.front(), second + of_second.front());
   const ContactChange other = change_of(contact, first + of_first.back(), second + of_second.back());
   if (std::abs(other.apart) > std::abs(worst.apart)) worst.apart = other.apart;
-  worst.lost = std::max(worst.lost, other.lost);
+  worst.lost = std::min(worst.lost, other.lost);
   worst.hinged = worst.hinged && other.hinged;
   return worst;
 }

@@ -37,8 +37,9 @@ struct ContactChange {
   bool hinged = false;
 };
 ContactChange change_of(const Contact& contact, const Corners& first, const Corners& second);
-/// The worst at the two ends of the range that the search looks at; hinged when it is at both. Corners at rest, and how
-/// they move.
+/// The worst at the two ends of the range that the search looks at; hinged when it is at both. Of what is lost, the less:
+/// what slides comes off at one end of its neighbour sooner than at the other, and there the slider ends. Corners at
+/// rest, and how they move.
 ContactChange worst_change(const Contact& contact, const Corners& first, const Motion& of_first, const Corners& second,
                            const Motion& of_second);
 

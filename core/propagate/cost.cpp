@@ -66,14 +66,17 @@ double price_of_strain(const Corners& rest, const Corners& deformed) {
 }
 
 double price_of_relation(const Prices& prices, const Relation& relation, double residual, double tolerance,
-                         const std::optional<ContactChange>& change) {
+                         const RelationState& state) {
   if (relation.is_symmetry()) {
     if (residual <= exact) return residual;
-    if (residual <= tolerance) return prices.slack * residual;
     const auto* mirror = std::get_if<Reflection>(&relation.detail);
     const bool stacked = mirror != nullptr && std::abs(mirror->normal.y()) > 0.5;
-    return stacked ? prices.broken_stacked_mirror : prices.broken_mirror;
+    const double broken = stacked                  ? prices.broken_stacked_mirror
+                          : state.is_asked_to_move ? prices.broken_asked_mirror
+                                                   : prices.broken_mirror;
+    return residual <= tolerance ? std::min(broken, prices.mirror_slack * residual) : broken;
   }
+  const std::optional<ContactChange>& change = state.contact;
   const double off = change ? std::abs(change->apart) : 0;
   double seen = 0;
   if (off > unseen) seen = std::min(prices.seen_most, prices.seen + prices.seen_by * (off - unseen));
@@ -83,7 +86,7 @@ double price_of_relation(const Prices& prices, const Relation& relation, double 
     return residual <= tolerance ? std::min(slides, prices.slack * residual) : slides;
   }
   if (residual <= tolerance) return prices.slack * residual + seen;
-  if (change && change->hinged) return prices.hinge;
+  if (change && change->hinged) return state.is_asked_to_turn ? prices.hinge : prices.unasked_hinge;
   return prices.broken_joint + prices.broken_by * std::min(residual, 0.2);
 }
 

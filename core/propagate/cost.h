@@ -26,7 +26,11 @@ struct Prices {
   /// A joint that turns about an edge of its contact: what a door or a lid does. Cheaper than to slide, dearer than what
   /// keeps the whole joint; chosen, not measured.
   double hinge = 1.5;
+  /// … unless neither of its parts was asked to turn: a side panel that leaves the front of its shelves is seen.
+  double unasked_hinge = 5;
   double broken_mirror = 4;
+  /// … of a part that was asked to do something: who wants it on one side only says so. Dearer than a joint.
+  double broken_asked_mirror = 12;
   /// Mirror images one above the other: what stands on the floor grows away from it, and its upper half is seldom asked
   /// to do the opposite of the lower one.
   double broken_stacked_mirror = 1;
@@ -35,8 +39,9 @@ struct Prices {
   /// What stands on the floor and is moved to another place, for its share of the shape's extent there: a leg goes where
   /// its table needs it, a whole cabinet does not follow its door. Chosen between the two, not measured against others.
   double dragged = 6;
-  /// A relation that is off by less than its tolerance: for each half-diagonal.
-  double slack = 60;
+  /// A relation that is off by less than its tolerance: for each half-diagonal. A mirror image costs more, as it has an
+  /// edit of its own that is exact; no more than a broken one.
+  double slack = 60, mirror_slack = 240;
   /// A joint that holds at its points while the surfaces part or enter each other: at once, and for each half-diagonal.
   double seen = 0.6, seen_by = 40, seen_most = 4;
   /// A part that nothing follows exactly, off by less than a part at rest may be. Dearer than a translation that fits,
@@ -48,7 +53,7 @@ struct Prices {
   /// An edit of another kind than a hint asks for.
   double against_hint = 30;
   /// Staying at rest in spite of a hint.
-  double rest_against_hint = 6;
+  double rest_against_hint = 15;
   /// A rigid motion of everything, or of all that stands on the floor; all of a row doing what was asked of one: no
   /// answer.
   double all_rigid = 40;
@@ -61,14 +66,20 @@ double price_of_kind(const Prices& prices, const Candidate& candidate, bool fill
 /// legs get longer rather than thicker. `deformed` at an end of the range.
 double price_of_strain(const Corners& rest, const Corners& deformed);
 
+/// What is known of a relation beside its points.
+struct RelationState {
+  std::optional<ContactChange> contact;  ///< of a joint: what became of it
+  bool is_asked_to_move = false;         ///< one of its parts is a seed
+  bool is_asked_to_turn = false;         ///< one of its parts
+};
+
 /// How far two surfaces may come apart, or enter each other, without anyone seeing it.
 inline constexpr double unseen = 0.004;
 /// A joint that has lost more than this of its contact has come off.
 inline constexpr double most_lost = 0.75;
 
-/// A relation that its points miss by `residual`, allowed `tolerance`; `change`: what became of a joint's contact, if
-/// it has one.
+/// A relation that its points miss by `residual`, allowed `tolerance`.
 double price_of_relation(const Prices& prices, const Relation& relation, double residual, double tolerance,
-                         const std::optional<ContactChange>& change);
+                         const RelationState& state);
 
 }  // namespace parsel

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <tuple>
 
 #include "core/propagate/layer_writer.h"
 #include "core/propagate/seeds.h"
@@ -212,21 +213,25 @@ class Loop : public Attempt {
     }
   }
 
-  /// The unedited part with the most broken relations; one with a broken symmetry before any without.
+  /// The unedited part with the most broken relations; one with a hint before any without, then one with a broken
+  /// symmetry.
   std::optional<PartIndex> next_part() const {
     std::optional<PartIndex> best;
-    std::pair<bool, int> most{false, 0};
+    using Urgency = std::tuple<bool, bool, int>;  // as in search.cpp
+    Urgency most{false, false, 0};
     for (const PartIndex part : graph_.parts()) {
       if (edits_[part] ||
           std::find(left_alone_.begin(), left_alone_.end(), std::pair(part, pulls_[part].size())) != left_alone_.end())
         continue;
-      std::pair<bool, int> broken{false, 0};
+      bool mirror = false;
+      int count = 0;
       for (const auto& [relation, by] : residuals(pulls_[part], still())) {
         if (by <= exact) continue;
-        broken.first = broken.first || is_side_by_side(relation);
-        ++broken.second;
+        mirror = mirror || is_side_by_side(relation);
+        ++count;
       }
-      if (broken.second == 0) continue;
+      if (count == 0) continue;
+      const Urgency broken{request_.hints.count(part) > 0, mirror, count};
       if (!best || broken > most || (broken == most && id(part) < id(*best))) {
         best = part;
         most = broken;

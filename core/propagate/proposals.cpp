@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/base/tolerance.h"
 #include "core/propagate/transfer.h"
@@ -107,8 +108,11 @@ class Proposer {
     proposal.why = "staying as it is gives up least";
     proposal.cost = price_of_rest + price_of_relations(problem_, edits_, part_, constraints_, proposal.motion);
     bool slightly = true;
-    for (const auto& [relation, by] : residuals(constraints_, proposal.motion))
-      slightly = slightly && by <= delta_one_edited;
+    for (const auto& [relation, by] : residuals(constraints_, proposal.motion)) {
+      // A mirror image has an edit of its own, however little it does: legs get thicker on both sides.
+      slightly =
+          slightly && by <= (shape_.relations[relation].kind == RelationKind::reflection ? exact : delta_one_edited);
+    }
     if (slightly) proposal.cost = std::min(proposal.cost, problem_.options.prices.slightly_off);
     if (hint_ && *hint_ != Hint::keep_fixed) proposal.cost += problem_.options.prices.rest_against_hint;
     return proposal;
@@ -321,8 +325,11 @@ class Proposer {
   /// The cheapest of all, in closed form.
   std::vector<Proposal> close() {
     std::size_t solved = 0;
+    std::set<std::string> kinds;
     for (const Fitted& fitted : fits_) {
       if (solved == problem_.options.proposals) break;
+      // One of a kind: three turns about axes side by side would leave no room for the slant that fits exactly.
+      if (kinds.count(name_of(fitted)) > 0) continue;
       AmountSolver solver(subsets_[fitted.subset].constraints, edits_, problem_.goals, problem_.parameter, problem_.at);
       auto steps = steps_of(fitted, solver);
       if (!steps || is_too_long(*steps)) continue;
@@ -336,7 +343,8 @@ class Proposer {
                       : fitted.first->from_neighbour ? WhyKind::neighbour
                                                      : WhyKind::attachment;
       proposal.source = name_of(fitted);
-      proposal.why = name_of(fitted);
+      proposal.why = proposal.source;
+      kinds.insert(proposal.source);
       proposals_.push_back(std::move(proposal));
       ++solved;
     }
@@ -373,16 +381,19 @@ double price_of_relations(const Problem& problem, const Edits& edits, PartIndex 
     const Relation& relation = shape.relations[index];
     const PartIndex other = problem.graph.other(index, part);
     const double tolerance = tolerance_of(relation, moves, !edits[other]->steps.empty());
-    std::optional<ContactChange> worst;
+    RelationState state;
+    state.is_asked_to_move = problem.seeds.count(part) > 0 || problem.seeds.count(other) > 0;
+    state.is_asked_to_turn = problem.turning.count(part) > 0 || problem.turning.count(other) > 0;
     if (const auto& contact = problem.contacts[index]) {
       const auto change = [&](PartIndex first, const Motion& its, PartIndex second, const Motion& others) {
         return worst_change(*contact, shape.parts[first].hexahedron.corners, its,
                             shape.parts[second].hexahedron.corners, others);
       };
       const Motion& of_other = edits[other]->motion;
-      worst = relation.parts[0] == part ? change(part, motion, other, of_other) : change(other, of_other, part, motion);
+      state.contact =
+          relation.parts[0] == part ? change(part, motion, other, of_other) : change(other, of_other, part, motion);
     }
-    cost += price_of_relation(prices, relation, by, tolerance, worst);
+    cost += price_of_relation(prices, relation, by, tolerance, state);
   }
   if (const auto& footing = problem.footings[part]) cost += price_of_footing(prices, *footing, motion);
   return cost;

@@ -10,6 +10,7 @@
 // Sources are asked in the order of what their proposals cost at least, and no further than the cheapest so far.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct Problem {
   ProposalOptions options;
   RelationData<std::optional<Contact>> contacts;  ///< of the joints
   PartData<std::optional<Footing>> footings;      ///< of the parts that stand on the floor
+  std::set<PartIndex> seeds;                      ///< parts that were asked to do something
+  std::set<PartIndex> turning;                    ///< … to turn, by a seed or a hint
   /// Candidates fitted so far, each once for every set of constraints: what the search costs, about a million a second.
   mutable std::size_t work = 0;
 };
