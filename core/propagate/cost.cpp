@@ -74,7 +74,8 @@ double price_of_relation(const Prices& prices, const Relation& relation, double 
     const double broken = stacked                  ? prices.broken_stacked_mirror
                           : state.is_asked_to_move ? prices.broken_asked_mirror
                                                    : prices.broken_mirror;
-    return residual <= tolerance ? std::min(broken, prices.mirror_slack * residual) : broken;
+    const double slack = state.is_asked_to_move ? prices.asked_mirror_slack : prices.slack;
+    return residual <= tolerance ? std::min(broken, slack * residual) : broken;
   }
   const std::optional<ContactChange>& change = state.contact;
   const double off = change ? std::abs(change->apart) : 0;

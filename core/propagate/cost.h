@@ -39,9 +39,10 @@ struct Prices {
   /// What stands on the floor and is moved to another place, for its share of the shape's extent there: a leg goes where
   /// its table needs it, a whole cabinet does not follow its door. Chosen between the two, not measured against others.
   double dragged = 6;
-  /// A relation that is off by less than its tolerance: for each half-diagonal. A mirror image costs more, as it has an
-  /// edit of its own that is exact; no more than a broken one.
-  double slack = 60, mirror_slack = 240;
+  /// A relation that is off by less than its tolerance: for each half-diagonal. The mirror image of a part that was asked
+  /// to do something costs more, as it has an edit of its own that is exact: legs get thicker on both sides, however
+  /// little.
+  double slack = 60, asked_mirror_slack = 240;
   /// A joint that holds at its points while the surfaces part or enter each other: at once, and for each half-diagonal.
   double seen = 0.6, seen_by = 40, seen_most = 4;
   /// A part that nothing follows exactly, off by less than a part at rest may be. Dearer than a translation that fits,

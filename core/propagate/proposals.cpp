@@ -109,9 +109,9 @@ class Proposer {
     proposal.cost = price_of_rest + price_of_relations(problem_, edits_, part_, constraints_, proposal.motion);
     bool slightly = true;
     for (const auto& [relation, by] : residuals(constraints_, proposal.motion)) {
-      // A mirror image has an edit of its own, however little it does: legs get thicker on both sides.
-      slightly =
-          slightly && by <= (shape_.relations[relation].kind == RelationKind::reflection ? exact : delta_one_edited);
+      const bool is_asked = shape_.relations[relation].kind == RelationKind::reflection &&
+                            problem_.seeds.count(problem_.graph.other(relation, part_)) > 0;
+      slightly = slightly && by <= (is_asked ? exact : delta_one_edited);
     }
     if (slightly) proposal.cost = std::min(proposal.cost, problem_.options.prices.slightly_off);
     if (hint_ && *hint_ != Hint::keep_fixed) proposal.cost += problem_.options.prices.rest_against_hint;
