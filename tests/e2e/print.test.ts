@@ -177,7 +177,7 @@ describe('a model for printing', () => {
       await page.getByRole('button', { name: 'Export' }).click();
       const [event] = await Promise.all([
         page.waitForEvent('download'),
-        page.getByRole('menuitem', { name: 'Edited, gaps closed and filled' }).click(),
+        page.getByRole('menuitem', { name: 'Edited, gaps filled' }).click(),
       ]);
       return partsOf(new Uint8Array(await readFile(await event.path())), new Map());
     };

@@ -39,7 +39,7 @@ function exportItems(): MenuItem[] {
       act: () => void exportModel('all', { repair: true }),
     },
     {
-      label: 'Edited, gaps closed and filled',
+      label: 'Edited, gaps filled',
       hint: '.glb',
       disabled: noLayer,
       act: () => void exportModel('all', { repair: 'fill' }),

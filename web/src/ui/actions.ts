@@ -7,7 +7,7 @@ import { editedName, plainName } from '../session/download_names';
 import { activeLayers } from '../session/evaluation';
 import { absentParts } from '../session/family_state';
 import { type FileSet, hasModel, sessionOf, unpacked } from '../session/files';
-import { type Filling, filledGaps } from '../session/fill';
+import type { Filling } from '../session/fill';
 import { gapSentences, withoutLeft } from '../session/gaps';
 import type { Exported, ExportOptions } from '../session/model_core';
 import { oneFile, slidersOfWork } from '../session/one_file';
@@ -159,6 +159,7 @@ async function filledFile(glb: Uint8Array, options: RunOptions): Promise<Filling
   if (core === null || model === null) return { glb, said: '' };
   const rest = await core.apply(model, programOf(model.shape, []), {});
   options.signal.throwIfAborted();
+  const { filledGaps } = await import('../session/fill'); // few want it: not among what is fetched first
   return filledGaps(rest.glb, glb, model.shape, programOf(model.shape, activeLayers(document.peek())), unit, options);
 }
 
