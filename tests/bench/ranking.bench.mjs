@@ -5,17 +5,17 @@
 //
 // Prints CSV `benchmark,case,metric,value`; processor time, median of five seeds.
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-const data = process.env.PARSEL_DATA;
-if (data === undefined) {
+const data = join(process.env.PARSEL_DATA ?? '', 'reparamcad.json');
+if (!existsSync(data)) {
   process.stderr.write('skipped: PARSEL_DATA names no folder with reparamcad.json\n');
   process.exit(0);
 }
-const { primitives, votes } = JSON.parse(readFileSync(join(data, 'reparamcad.json'), 'utf8')).models.chair;
+const { primitives, votes } = JSON.parse(readFileSync(data, 'utf8')).models.chair;
 const idOf = (name) => name.replaceAll(/\W/g, '');
 const names = primitives.flatMap(({ name }) =>
   ['cx', 'cy', 'cz', 'sx', 'sy', 'sz'].map((what) => `${idOf(name)}.${what}`),
