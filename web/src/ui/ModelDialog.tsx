@@ -151,7 +151,7 @@ function ProviderFields({ provider }: { provider: Provider }) {
         More than one are put to the vote, and cost as much more. Left empty:{' '}
         {local
           ? 'one, as this machine is slow'
-          : `${measuredVotes.request} for a request, ${measuredVotes.names} for names of parts, ${measuredVotes.kinds} for kinds of a thing; more were not measured to help`}
+          : `${measuredVotes.request} for a request, ${measuredVotes.names} for names of parts, ${measuredVotes.kinds} for kinds of a thing, as they were measured`}
         .
       </p>
       <SoFar />
