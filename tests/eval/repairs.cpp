@@ -45,8 +45,11 @@ std::vector<NamedEdit> edits_of(const Shape& shape) {
       direction[static_cast<std::size_t>(axis)] = 1;
       const json statement = {
           {"op", "translate"}, {"part", shape.parts[p].id}, {"direction", direction}, {"amount", "x"}};
-      edits.push_back({shape.parts[p].id + " along " + "xyz"[axis],
-                       {{"format", "parsel/edit"}, {"version", 1}, {"seed", json::array({statement})}}});
+      edits.push_back({shape.parts[p].id + " along " + "xyz" [axis], {
+                         {"format", "parsel/edit"}, {"version", 1}, {
+                           "seed", json::array({statement})
+                         }
+                       }});
     }
   }
   return edits;

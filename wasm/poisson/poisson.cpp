@@ -19,12 +19,12 @@ struct MemoryInfo {
   static std::size_t Usage() { return 0; }
 };
 
-#include "MyTime.h"
 #include "MarchingCubes.h"
-#include "Octree.h"
-#include "SparseMatrix.h"
-#include "PPolynomial.h"
 #include "MultiGridOctreeData.h"
+#include "MyTime.h"
+#include "Octree.h"
+#include "PPolynomial.h"
+#include "SparseMatrix.h"
 
 namespace {
 
@@ -118,9 +118,8 @@ int poisson_reconstruct(const float* values, int count, int depth, float weight)
   }
   CoredVectorMeshData<PlyVertex<Real>> mesh;
   tree.getMCIsoSurface<degree, boundary, WEIGHT_DEGREE, DATA_DEGREE>(
-      static_cast<Density*>(nullptr),
-      static_cast<SparseNodeData<ProjectiveData<Vector, Real>, DATA_DEGREE>*>(nullptr), solution,
-      static_cast<Real>(sum / weights), mesh, true, true, false);
+      static_cast<Density*>(nullptr), static_cast<SparseNodeData<ProjectiveData<Vector, Real>, DATA_DEGREE>*>(nullptr),
+      solution, static_cast<Real>(sum / weights), mesh, true, true, false);
 
   mesh.resetIterator();
   const auto keep = [](const PlyVertex<Real>& vertex) {
@@ -142,8 +141,14 @@ int poisson_reconstruct(const float* values, int count, int depth, float weight)
 }
 
 /// Of the last reconstruction, until the next: three numbers a vertex.
-const float* poisson_positions() { return positions.data(); }
-int poisson_triangle_count() { return static_cast<int>(triangles.size() / 3); }
+const float* poisson_positions() {
+  return positions.data();
+}
+int poisson_triangle_count() {
+  return static_cast<int>(triangles.size() / 3);
+}
 /// Three vertices a triangle, counter-clockwise from outside.
-const std::uint32_t* poisson_triangles() { return triangles.data(); }
+const std::uint32_t* poisson_triangles() {
+  return triangles.data();
+}
 }

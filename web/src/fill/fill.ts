@@ -12,7 +12,7 @@ import { type Box, diskSamples, type Sample } from './samples';
 import type { EditedPart, FilledGap, Patch, Place, Reconstruct } from './types';
 
 /** Samples to the width of a gap. */
-const fineness = 4;
+const fineness = 8;
 /** Around a gap, in radii of samples, and in widths. */
 const around = { radii: 10, widths: 2 } as const;
 const mostSamples = 150_000;
@@ -22,7 +22,7 @@ const room = 1.1;
 /** In radii of samples: farther from all of them is new surface. */
 const supported = 1.6;
 /** Of decimation, in radii. */
-const coarseness = 0.25;
+const coarseness = 0.1;
 
 type Point = readonly [number, number, number];
 
