@@ -98,7 +98,7 @@ export const scan = (rings = 501) => {
   return ballsOf(1, rings, (x, y, z) => wave(x, y, z) + grain(x, y, z));
 };
 
-/** Single triangles, or tetrahedra, apart from each other: what a fractal falls into. */
+/** Tetrahedra apart from each other, on a grid: what a fractal falls into. */
 export function dust(count) {
   const across = Math.ceil(Math.cbrt(count));
   const positions = new Float32Array(12 * count);

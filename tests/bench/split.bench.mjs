@@ -2,8 +2,7 @@
 //
 //   node tests/bench/split.bench.mjs            (after ./web/start.sh --build-only)
 //
-// Prints CSV `benchmark,case,metric,value`. Processor time, of the second of two calls; how often it reports where it is, and
-// the longest it is silent.
+// Prints CSV `benchmark,case,metric,value`: processor time of the second of two calls, and the module's memory.
 import { loadCore } from '../../web/tools/core.mjs';
 import { ballsOf, dust, scan } from './large_models.mjs';
 
