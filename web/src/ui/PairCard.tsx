@@ -12,9 +12,8 @@ export function PairCard({ shape }: { shape: Shape }) {
   const pair = pairOf(shape, selected.value, document.value.model?.corrections);
   if (pair === null) return null;
   return (
-    <section class="selection" aria-label="Joint">
-      <h3>What holds them</h3>
-      <p class="quiet">{pairWords(pair)}</p>
+    <section class="pair" aria-label="Joint">
+      <p>{pairWords(pair)}</p>
       <div class="chips">
         {changesOf(pair).map(({ kind, label, title }) => (
           <button
@@ -105,7 +104,7 @@ export function CorrectionList() {
     if (models.value !== null) void uncorrect(models.value, gone);
   };
   return (
-    <section class="relations corrections" aria-label="Put right by hand">
+    <section class="relations put-right" aria-label="Put right by hand">
       <h3>Put right by hand</h3>
       <ul>
         {corrections.map((correction) => {

@@ -31,8 +31,9 @@ export function PartsPanel({ onEdit }: { onEdit: () => void }) {
       <SplitCard />
       <PlaceCard />
       <NamesCard />
-      <SelectionBar shape={model.shape} onEdit={onEdit} />
-      <PairCard shape={model.shape} />
+      <SelectionBar shape={model.shape} onEdit={onEdit}>
+        <PairCard shape={model.shape} />
+      </SelectionBar>
       {selected.value.length < 2 && <SelectedPart />}
       <CorrectionList />
     </>
