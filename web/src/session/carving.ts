@@ -56,8 +56,14 @@ export async function carveModel(core: ModelCore, step: CarveStep, carve: Carver
   const isNew = new Set(found.made);
   selectAll(made.model.shape.parts.filter((part) => !part.virtual && isNew.has(partKey(part))).map(({ id }) => id));
   if (found.lost.length > 0) say(`The file loses ${found.lost.slice(0, 3).join(', ')}, which is not known here.`);
+  else if (found.open.length > 0) say(openWords(found.open));
   return true;
 }
+
+const openWords = (names: readonly string[]): string =>
+  names.length === 1
+    ? `The cut through ${names[0]} stays open: only closed solids are closed again.`
+    : `The cuts through ${names.length} parts stay open (${names.slice(0, 3).join(', ')}${names.length > 3 ? ', …' : ''}): only closed solids are closed again.`;
 
 const newKey = ({ moved }: Pick<CarvedFiles, 'moved'>, key: PartKey): PartKey =>
   moved.find(([from]) => from === key)?.[1] ?? key; // parts of one node: few

@@ -3,7 +3,7 @@
 import { AskError } from '../llm/ask_error';
 import { browserCache } from '../llm/cache';
 import { findRecorded, loadRecordings } from '../llm/recordings';
-import { currentTarget, isDemo, settings } from '../llm/settings';
+import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
 import { models } from './core';
 import { isAsFound, type OpenModel, partNames } from './document';
@@ -26,7 +26,7 @@ async function questionOf(
   afresh: boolean,
 ): Promise<Question> {
   if (!isDemo.peek()) {
-    const source = liveSource(currentTarget(), { votes: settings.peek().votes, cache: browserCache, afresh });
+    const source = liveSource(currentTarget(), { votes: votesFor('request'), cache: browserCache, afresh });
     return { request: told, title: typed, mentioned: parts, source };
   }
   if (!isAsFound(model))
@@ -88,7 +88,7 @@ export const {
   models,
   questionOf,
   seen,
-  votes: () => (isDemo.peek() ? null : settings.peek().votes),
+  votes: () => (isDemo.peek() ? null : votesFor('request')),
   play: playOnce,
   aim: aimAt,
 });
