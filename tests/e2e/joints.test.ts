@@ -66,7 +66,8 @@ describe('a joint', () => {
 
   it('over more than a point is loosened and held again', async () => {
     const { parts, relations } = await page.evaluate(() => parsel.document().model?.shape as Shape);
-    const wide = relations.find(({ kind }) => kind === 'line' || kind === 'face' || kind === 'volume');
+    const isShown = (id: string) => parts.some((other) => other.id === id && (other.virtual || other.group === undefined));
+    const wide = relations.find(({ kind, parts: pair }) => /line|face|volume/.test(kind) && pair.every(isShown));
     const [a, b] = wide?.parts ?? [];
     const nameOf = (id?: string) => parts.find((other) => other.id === id)?.name ?? '';
     await choose(nameOf(a), nameOf(b));
@@ -90,7 +91,7 @@ describe('a joint', () => {
   });
 
   it('that is gone no longer carries an edit: the edit is worked out again', async () => {
-    await page.getByRole('textbox', { name: /change/i }).fill('raise the seat');
+    await page.getByRole('textbox', { name: /change/i }).fill('make the seat wider');
     await page.keyboard.press('Enter');
     await page.locator('.card').first().waitFor();
     const edited = () =>
