@@ -66,7 +66,8 @@ describe('a joint', () => {
 
   it('over more than a point is loosened and held again', async () => {
     const { parts, relations } = await page.evaluate(() => parsel.document().model?.shape as Shape);
-    const isShown = (id: string) => parts.some((other) => other.id === id && (other.virtual || other.group === undefined));
+    const isShown = (id: string) =>
+      parts.some((other) => other.id === id && (other.virtual || other.group === undefined));
     const wide = relations.find(({ kind, parts: pair }) => /line|face|volume/.test(kind) && pair.every(isShown));
     const [a, b] = wide?.parts ?? [];
     const nameOf = (id?: string) => parts.find((other) => other.id === id)?.name ?? '';

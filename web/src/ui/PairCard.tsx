@@ -1,9 +1,9 @@
 // What two selected parts are to each other, to be put right: their joint, and whether they are mirror images. And what
 // was put right so far.
-import type { Shape } from '../program/types';
+import type { Shape, ShapePart } from '../program/types';
 import { models } from '../session/core';
 import { correct, type Pair, pairOf, uncorrect } from '../session/corrections';
-import { type Correction, type Document, nameOf, noCorrections, partKey } from '../session/document';
+import { type Correction, nameOf, noCorrections, partKey } from '../session/document';
 import { document, selectAll, selected, task } from '../session/session';
 import { Icon } from './Icon';
 import { jointWords } from './words';
@@ -35,20 +35,19 @@ export function PairCard({ shape }: { shape: Shape }) {
 /** The same two stay selected, whatever they are called then. */
 async function declare(pair: Pair, kind: Correction['kind']): Promise<void> {
   if (models.value === null) return;
-  const keys = pair.ids.map((id) => keyOf(document.peek(), id));
+  const before = document.peek().model?.shape.parts ?? [];
+  const keys = pair.ids.map((id) => keyOf(before, id));
   if (!(await correct(models.value, { kind, parts: pair.keys }))) return;
   const now = document.peek().model?.shape.parts ?? [];
-  const again = keys.flatMap((key) => now.find(({ id }) => keyOf(document.peek(), id) === key)?.id ?? []);
+  const again = keys.flatMap((key) => now.find(({ id }) => keyOf(now, id) === key)?.id ?? []);
   if (again.length === keys.length) selectAll(again);
 }
 
 /** What stays the same when ids change. */
-function keyOf({ model }: Document, id: string): string {
-  const part = model?.shape.parts.find((other) => other.id === id);
+function keyOf(parts: readonly ShapePart[], id: string): string {
+  const part = parts.find((other) => other.id === id);
   if (part === undefined) return '';
-  return part.virtual
-    ? part.members.map((member) => model && keyOf({ model } as Document, member)).join(' ')
-    : partKey(part);
+  return part.virtual ? part.members.map((member) => keyOf(parts, member)).join(' ') : partKey(part);
 }
 
 function pairWords({ joint, mirror, said }: Pair): string {
