@@ -22,7 +22,6 @@
 #include "core/prove/together.h"
 #include "core/shape/abstraction.h"
 #include "core/split/split.h"
-#include "wasm/cad_methods.h"
 
 namespace parsel::wasm {
 
@@ -400,12 +399,6 @@ constexpr std::array all_methods = {
     Method{"prompts", prompts},
     Method{"proposal_prompt", proposal_prompt},
     Method{"read_replies", read_replies},
-    Method{"open_cad", open_cad},
-    Method{"find_family", find_family},
-    Method{"family_text", family_text},
-    Method{"cad_prompt", cad_prompt},
-    Method{"read_cad_replies", read_cad_replies},
-    Method{"cad_gallery", cad_gallery},
     Method{"memory", memory},
     Method{"fail", fail},
 };
@@ -414,12 +407,6 @@ constexpr std::array all_methods = {
 
 std::span<const Method> methods() {
   return all_methods;
-}
-
-const Method* find_method(std::string_view name) {
-  const auto found =
-      std::find_if(all_methods.begin(), all_methods.end(), [&](const Method& m) { return m.name == name; });
-  return found == all_methods.end() ? nullptr : &*found;
 }
 
 }  // namespace parsel::wasm

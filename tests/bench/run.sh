@@ -47,6 +47,7 @@ measure node "$root/tests/bench/core.bench.mjs" "$output"/shelf_wall_100.glb
 measure node --expose-gc "$root/tests/bench/program.bench.mjs"
 measure node "$root/tests/bench/runtime.bench.mjs"
 measure node "$root/tests/bench/batch.bench.mjs"
+measure node "$root/tests/bench/ranking.bench.mjs"
 measure node "$root/web/runtime/build.mjs" --figures
 measure node "$root/web/tools/sizes.mjs" --figures
 if ! has chromium && ! has google-chrome; then need "chromium chromium"; fi

@@ -4,8 +4,8 @@ import { readFile } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import * as v from 'valibot';
 import { beforeAll, describe, expect, it } from 'vitest';
-import { errorSchema, type Method, methodSchemas } from '../../web/src/worker/protocol';
-import { type LoadedModule, loadModule } from './module';
+import { errorSchema, type Method, methodSchemas, methodsOf } from '../../web/src/worker/protocol';
+import { type LoadedModule, loadCadModule, loadModule } from './module';
 
 let core: LoadedModule;
 beforeAll(async () => {
@@ -18,8 +18,10 @@ function invoke(method: string, parameters: unknown, buffers: Uint8Array[] = [])
 }
 
 describe('the boundary between the page and the core', () => {
-  it('has the same methods on both sides', () => {
-    expect([...core.methods()].sort()).toEqual(Object.keys(methodSchemas).sort());
+  it('has the same methods on both sides, in the same modules', async () => {
+    expect([...core.methods()].sort()).toEqual(Object.keys(methodsOf.core).sort());
+    expect([...(await loadCadModule()).methods()].sort()).toEqual(Object.keys(methodsOf.cad).sort());
+    expect(Object.keys(methodSchemas)).toHaveLength(core.methods().length + Object.keys(methodsOf.cad).length);
   });
 
   const examples: Partial<Record<Method, unknown>> = {

@@ -2,7 +2,7 @@
 // undo, say, or in a new worker) is its state.
 import type { Program, Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
-import type { CallOptions, CoreClient, CoreState } from '../worker/client';
+import type { CallOptions, Calls, CoreState } from '../worker/client';
 import type { Inference, MethodResult, Parameters, PlainInference, Replies } from '../worker/protocol';
 import { type Corrections, type EditInput, type Labels, noCorrections, noLabels, type OpenModel } from './document';
 import type { Trace } from './trace';
@@ -94,7 +94,7 @@ export interface ModelCore {
 }
 
 /** The model that calls are about is told to the core with each of them; the client sees to it that it is only told anew. */
-export function modelCore(client: CoreClient): ModelCore {
+export function modelCore(client: Calls): ModelCore {
   const states = new WeakMap<ModelFiles, Map<string, CoreState<'open'>>>();
   const stateOf = ({
     files,

@@ -1,7 +1,6 @@
 // What the page's model offers: looked for when a model of one's own is opened that nobody has worked on yet.
 import { effect, untracked } from '@preact/signals';
-import wasmUrl from 'parsel-module/parsel.wasm?url';
-import { startCore } from '../worker/client';
+import { startCore } from '../worker/modules';
 import { models } from './core';
 import { emptyProgram } from './document';
 import { madeBy } from './layers';
@@ -10,7 +9,7 @@ import { createOffers, type Offer } from './offers';
 import { addProgram, document, draft } from './session';
 
 export const { offers, look, stop, drop } = createOffers(async () => {
-  const client = await startCore(wasmUrl);
+  const client = await startCore();
   return { models: modelCore(client), dispose: () => client.dispose() };
 });
 
