@@ -96,7 +96,8 @@ Result<Output> solve(const Input& input) {
   return Output{{{"solutions", solutions(*equation, *unknown)}}, {}};
 }
 
-/// buffers = the file, then the external buffers that `external` names, in its order. labels: see abstract_shape().
+/// buffers = the file, then the external buffers that `external` names, in its order. labels: see abstract_shape(); so corrections,
+/// as in corrections_from_json().
 Result<Output> open(const Input& input) {
   const Result<std::string> name = text_parameter(input, "name");
   if (!name.ok()) return name.error();
@@ -116,7 +117,9 @@ Result<Output> open(const Input& input) {
     if (!label.is_string()) return wrong_parameter("labels", "labels by part");
     labels[key] = label.get<std::string>();
   }
-  Result<Abstraction> abstraction = abstract_shape(input.buffers[0], *name, external, labels);
+  const Result<Corrections> corrections = corrections_from_json(input.parameters.value("corrections", json::array()));
+  if (!corrections.ok()) return corrections.error();
+  Result<Abstraction> abstraction = abstract_shape(input.buffers[0], *name, external, labels, *corrections);
   if (!abstraction.ok()) return abstraction.error();  // the open model stays
   model = OpenModel{std::move(abstraction->shape), input.buffers[0], std::move(external)};
   return Output{{{"shape", to_json(model->shape)}}, {}};

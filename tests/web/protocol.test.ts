@@ -148,6 +148,30 @@ describe('the boundary between the page and the core', () => {
     expect(open({ 'node:999': 'lid' }).error?.place).toBe('node:999');
   });
 
+  it('opens a model with a joint declared away, and refuses what is no correction', () => {
+    const { message, buffers } = invoke('gallery', {});
+    const { models } = (message as { result: { models: { id: string }[] } }).result;
+    const file = buffers[models.findIndex(({ id }) => id === 'chair')] as Uint8Array;
+    type Opened = {
+      result?: { shape: { parts: { id: string; node: number }[]; relations: { kind: string; parts: string[] }[] } };
+      error?: { place: string };
+    };
+    const open = (corrections: readonly unknown[]) =>
+      invoke('open', { name: 'chair', external: [], corrections }, [file]).message as Opened;
+    const joint = ({ result }: Opened) =>
+      result?.shape.relations.find(
+        ({ kind, parts }) => kind !== 'reflection' && parts.includes('seat') && parts.includes('leg_front_left'),
+      );
+    const found = open([]);
+    expect(joint(found)).toBeDefined();
+    const keys = ['seat', 'leg_front_left'].map(
+      (wanted) => `node:${found.result?.shape.parts.find(({ id }) => id === wanted)?.node}/0`,
+    );
+    expect(joint(open([{ kind: 'apart', parts: keys }]))).toBeUndefined();
+    expect(open([{ kind: 'glued', parts: keys }]).error?.place).toBe('/0/kind');
+    expect(open([{ kind: 'apart', parts: ['node:999/0', keys[0]] }]).error?.place).toBe('node:999/0');
+  });
+
   it('answers with the version of the project', async () => {
     const cmake = await readFile(fileURLToPath(new URL('../../CMakeLists.txt', import.meta.url)), 'utf8');
     expect(invoke('version', {}).message).toEqual({ result: { version: cmake.match(/VERSION (\d+\.\d+\.\d+)/)?.[1] } });

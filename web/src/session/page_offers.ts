@@ -28,9 +28,12 @@ export function keepOffer(offer: Offer, value: number): number | null {
 /** A model that has been there for so long (ms) is one that somebody looks at: tabs that a browser brings back come first. */
 const settled = 1500;
 
-/** Looks whenever a fresh model of one's own is there and nobody has begun to work on it; answers how to stop. */
+/**
+ * Looks whenever a fresh model of one's own is there, or is seen with other labels or joints, and nobody has begun to work on
+ * it; answers how to stop.
+ */
 export function lookOnOpening(): () => void {
-  let seen = document.peek().model?.files;
+  let seen = document.peek().model?.shape;
   let waiting: ReturnType<typeof setTimeout> | undefined;
   const lookIfFresh = () => {
     const { model, layers } = document.peek();
@@ -38,8 +41,8 @@ export function lookOnOpening(): () => void {
   };
   const end = effect(() => {
     const { model } = document.value;
-    if (models.value === null || model?.files === seen) return;
-    seen = model?.files;
+    if (models.value === null || model?.shape === seen) return;
+    seen = model?.shape;
     clearTimeout(waiting);
     untracked(stop);
     waiting = setTimeout(lookIfFresh, settled);

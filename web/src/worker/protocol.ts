@@ -135,13 +135,15 @@ const coreMethods = {
   /**
    * Opens a model: buffers are the file and then its external buffers, in the order of their names in `external`. The
    * shape is `parsel/shape` v1. `labels` take the place of the file's own, by "node:<index>" or
-   * "node:<index>/<primitive>". Puts the core into a state: see CoreState in client.ts.
+   * "node:<index>/<primitive>"; `corrections` are joints and mirror images, whatever is found: core/shape/corrections.h.
+   * Puts the core into a state: see CoreState in client.ts.
    */
   open: {
     parameters: v.strictObject({
       name: v.string(),
       external: v.array(v.string()),
       labels: v.optional(v.record(v.string(), v.string())),
+      corrections: v.optional(v.array(v.strictObject({ kind: v.string(), parts: v.array(v.string()) }))),
     }),
     result: v.strictObject({ shape: v.looseObject({ format: v.literal('parsel/shape'), version: v.literal(1) }) }),
   },
