@@ -182,8 +182,8 @@ describe('a file', () => {
 
   it('keeps its nodes, names, materials and corners, and opens as the same parts', async () => {
     const core = await loadModule();
-    const shape = call<{ shape: Opened }>(core, 'open', { name: 'stool', external: [] }, [new Uint8Array(stool)])
-      .result.shape;
+    const shape = call<{ shape: Opened }>(core, 'open', { name: 'stool', external: [] }, [new Uint8Array(stool)]).result
+      .shape;
     const legs = shape.parts.filter(({ label, virtual }) => label === 'leg' && !virtual);
     const real = shape.parts.filter(({ virtual }) => !virtual);
     // Legs that share a mesh, one of them lower: the file itself is changed, as an edit would.
