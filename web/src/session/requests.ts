@@ -3,10 +3,10 @@
 import { AskError } from '../llm/ask_error';
 import { browserCache } from '../llm/cache';
 import { findRecorded, loadRecordings } from '../llm/recordings';
-import { currentTarget, isDemo, settings } from '../llm/settings';
+import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
 import { models } from './core';
-import { type OpenModel, partNames } from './document';
+import { isAsFound, type OpenModel, partNames } from './document';
 import { facing, speaksAsSeen } from './facing';
 import { type Said, saidFrom } from './looking';
 import { playOnce } from './play';
@@ -26,15 +26,15 @@ async function questionOf(
   afresh: boolean,
 ): Promise<Question> {
   if (!isDemo.peek()) {
-    const source = liveSource(currentTarget(), { votes: settings.peek().votes, cache: browserCache, afresh });
+    const source = liveSource(currentTarget(), { votes: votesFor('request'), cache: browserCache, afresh });
     return { request: told, title: typed, mentioned: parts, source };
   }
-  if (model.labels.size > 0)
+  if (!isAsFound(model))
     throw new AskError(
       'no_recording',
       '',
-      'The recorded answers are about the parts as the file names them, and some have other labels now',
-      'Reset those labels, or enter a key in the settings to ask anything',
+      'The recorded answers are about the parts as the file has them, and some have other labels or joints now',
+      'Reset those, or enter a key in the settings to ask anything',
     );
   const gallery = galleryOf(model);
   const recordings = gallery === null ? null : await loadRecordings(gallery);
@@ -88,7 +88,7 @@ export const {
   models,
   questionOf,
   seen,
-  votes: () => (isDemo.peek() ? null : settings.peek().votes),
+  votes: () => (isDemo.peek() ? null : votesFor('request')),
   play: playOnce,
   aim: aimAt,
 });

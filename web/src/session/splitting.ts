@@ -57,8 +57,10 @@ export async function splitModel(core: ModelCore, by: SplitBy, fine: number): Pr
   const { split, shape } = made;
   if (shape === null) {
     settled.value = new Set([...settled.peek(), from]);
-    const remarks = split.remarks.length > 0 ? ` Left whole: ${split.remarks.slice(0, 3).join('; ')}.` : '';
-    say(`Nothing in this model comes apart this way.${remarks}`);
+    const remarks = split.remarks.slice(0, 3).join('; ');
+    say(
+      `Nothing in this model comes apart this way${remarks === '' ? '. Select a part to cut it by hand' : `: ${remarks}`}.`,
+    );
     return false;
   }
   const next = { ...emptyDocument, model: { files: split.files, source: model.source, shape, labels: noLabels } };
@@ -67,6 +69,6 @@ export async function splitModel(core: ModelCore, by: SplitBy, fine: number): Pr
     if (model.files.split && undoLabel.peek() === stepLabel) undo();
     replaceDocument(next, stepLabel);
   });
-  if (split.remarks.length > 0) say(`Left whole: ${split.remarks.slice(0, 3).join('; ')}.`);
+  if (split.remarks.length > 0) say(`Split, but for this: ${split.remarks.slice(0, 3).join('; ')}.`);
   return true;
 }

@@ -2,10 +2,10 @@
 import { AskError } from '../llm/ask_error';
 import { browserCache } from '../llm/cache';
 import { loadRecordings } from '../llm/recordings';
-import { currentTarget, isDemo, settings } from '../llm/settings';
+import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
 import { models } from './core';
-import type { OpenModel } from './document';
+import { isAsFound, type OpenModel } from './document';
 import { createProposals } from './proposals';
 import type { Asker } from './propose';
 import { session } from './session';
@@ -26,7 +26,7 @@ export async function askerOf(model: OpenModel, votes = 1): Promise<Asker> {
   const name = `${target.base} ${target.model}`;
   const options = { cache: browserCache };
   return {
-    reader: liveSource(target, { ...options, votes: Math.min(settings.peek().votes, mostVotes) }),
+    reader: liveSource(target, { ...options, votes: Math.min(votesFor('request'), mostVotes) }),
     proposer(_, picture) {
       if (picture === null) return liveSource(target, { ...options, votes });
       const drawn = target.provider.sees && !blind.has(name) ? picture() : null;
@@ -36,8 +36,9 @@ export async function askerOf(model: OpenModel, votes = 1): Promise<Asker> {
   };
 }
 
-async function recordedAsker({ source, labels }: OpenModel): Promise<Asker> {
-  const recordings = source.kind === 'gallery' && labels.size === 0 ? await loadRecordings(source.id) : null;
+async function recordedAsker(model: OpenModel): Promise<Asker> {
+  const { source } = model;
+  const recordings = source.kind === 'gallery' && isAsFound(model) ? await loadRecordings(source.id) : null;
   if (recordings === null)
     throw new AskError(
       'no_recording',

@@ -5,8 +5,18 @@ import { clearReplies } from '../llm/cache';
 import { defaultModel, lookedUp } from '../llm/default_models';
 import { complete, listModels } from '../llm/http';
 import { forgetKey, type Keeping, keepKey, keyFor } from '../llm/keys';
-import { isAllowed, type Provider, providerOf, providers } from '../llm/providers';
-import { choiceOf, choose, currentTarget, enteredOf, isDemo, maxVotes, recorded, settings } from '../llm/settings';
+import { isAllowed, isLocal, type Provider, providerOf, providers } from '../llm/providers';
+import {
+  choiceOf,
+  choose,
+  currentTarget,
+  enteredOf,
+  isDemo,
+  maxVotes,
+  measuredVotes,
+  recorded,
+  settings,
+} from '../llm/settings';
 import { sentence } from '../session/tasks';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
@@ -69,6 +79,7 @@ function ProviderFields({ provider }: { provider: Provider }) {
   const modelHint = useId();
   const change = (next: Parameters<typeof choose>[1]) => choose(provider.id, next);
   const allowed = isAllowed(choice.base);
+  const local = isLocal(choice.base);
   return (
     <>
       {provider.pitfalls.length > 0 && (
@@ -126,15 +137,23 @@ function ProviderFields({ provider }: { provider: Provider }) {
           type="number"
           min={1}
           max={maxVotes}
-          value={settings.value.votes}
+          value={settings.value.votes ?? ''}
+          placeholder={local ? '1' : `${measuredVotes.request} to ${measuredVotes.kinds}`}
           onChange={(event) => {
-            const votes = Math.round(Math.min(maxVotes, Math.max(1, event.currentTarget.valueAsNumber || 1)));
+            const typed = event.currentTarget.valueAsNumber;
+            const votes = Number.isNaN(typed) ? null : Math.round(Math.min(maxVotes, Math.max(1, typed)));
             settings.value = { ...settings.peek(), votes };
-            event.currentTarget.value = String(votes);
+            event.currentTarget.value = String(votes ?? '');
           }}
         />
       </label>
-      <p class="quiet">They are put to the vote: more cost more and err less. Five is a good number.</p>
+      <p class="quiet">
+        More than one are put to the vote, and cost as much more. Left empty:{' '}
+        {local
+          ? 'one, as this machine is slow'
+          : `${measuredVotes.request} for a request, ${measuredVotes.names} for names of parts, ${measuredVotes.kinds} for kinds of a thing, as they were measured`}
+        .
+      </p>
       <SoFar />
       <WhatIsSent host={URL.canParse(choice.base) ? new URL(choice.base).host : provider.title} sees={provider.sees} />
       <details>

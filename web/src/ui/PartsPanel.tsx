@@ -4,9 +4,10 @@ import { isGroup, type ShapePart } from '../program/types';
 import { models } from '../session/core';
 import { nameOf, partKey } from '../session/document';
 import { relabel } from '../session/open';
-import { document, pointedAt, select, selected, selection, showAll } from '../session/session';
+import { document, pointedAt, select, selectAll, selected, selection, showAll } from '../session/session';
 import { Found } from './Found';
 import { NamesCard } from './NamesCard';
+import { CorrectionList, PairCard } from './PairCard';
 import { PartsList } from './PartsList';
 import { PlaceCard } from './PlaceCard';
 import { SelectionBar } from './SelectionBar';
@@ -30,8 +31,11 @@ export function PartsPanel({ onEdit }: { onEdit: () => void }) {
       <SplitCard />
       <PlaceCard />
       <NamesCard />
-      <SelectionBar shape={model.shape} onEdit={onEdit} />
+      <SelectionBar shape={model.shape} onEdit={onEdit}>
+        <PairCard shape={model.shape} />
+      </SelectionBar>
       {selected.value.length < 2 && <SelectedPart />}
+      <CorrectionList />
     </>
   );
 }
@@ -147,7 +151,10 @@ function Why({ id }: { id: string }) {
   );
 }
 
-/** What holds the selected part: pointing at a relation shows its points or its plane. */
+/**
+ * What holds the selected part: pointing at a relation shows its points or its plane, a click selects both its parts, so that
+ * it can be changed.
+ */
 function Relations({ id }: { id: string }) {
   const { model } = document.value;
   if (model === null) return null;
@@ -157,7 +164,9 @@ function Relations({ id }: { id: string }) {
   return (
     <section class="relations" aria-label="Relations of the selected part">
       <h3>What holds {nameOf(document.value, id)}</h3>
-      {relations.length === 0 && <p class="quiet">Nothing: it stands alone.</p>}
+      {relations.length === 0 && (
+        <p class="quiet">Nothing: it stands alone. Select another part as well (Shift+click) to join the two.</p>
+      )}
       <ul>
         {relations.map((relation) => {
           const show = () => {
@@ -166,11 +175,15 @@ function Relations({ id }: { id: string }) {
           const hide = () => {
             pointedAt.value = null;
           };
+          const other = relation.parts.find((part) => part !== id);
+          const isPair = !isGroup(relation) && other !== undefined;
           return (
             <li key={relation.id}>
               <button
                 type="button"
                 class="line"
+                title={isPair ? 'Selects both, to change what holds them' : undefined}
+                onClick={isPair ? () => selectAll([id, other]) : undefined}
                 onPointerEnter={show}
                 onPointerLeave={hide}
                 onFocus={show}

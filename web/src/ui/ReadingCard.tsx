@@ -51,7 +51,12 @@ export function ReadingCard({ state }: { state: Understood }) {
               <span class="quiet">{corrected === null ? 'Understood:' : 'Corrected:'}</span> {corrected ?? chosen.words}
             </span>
           ) : (
-            <span>{undecided ?? `“${state.request}” was understood, but is not applied`}</span>
+            <span>
+              {undecided ??
+                (task.value === null
+                  ? `“${state.request}” was understood, but is not applied`
+                  : `“${state.request}” is understood, and is being worked out`)}
+            </span>
           )}
         </button>
         {layer !== null && seed.of > 1 && chosen && (

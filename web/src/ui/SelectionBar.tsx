@@ -1,4 +1,5 @@
 // What can be done with the parts that are selected.
+import type { ComponentChildren } from 'preact';
 import type { Shape } from '../program/types';
 import { carveModel, keysOf, whyUncarvable } from '../session/carving';
 import { models } from '../session/core';
@@ -8,8 +9,19 @@ import { document, isolate, select, selectAll, selected, setHidden, task } from 
 import { alike, realParts } from '../session/several';
 import { listWords } from './words';
 
-/** @param onEdit begins an edit by hand of all of them */
-export function SelectionBar({ shape, onEdit }: { shape: Shape; onEdit: () => void }) {
+/**
+ * @param onEdit begins an edit by hand of all of them
+ * @param children what they are to each other
+ */
+export function SelectionBar({
+  shape,
+  onEdit,
+  children,
+}: {
+  shape: Shape;
+  onEdit: () => void;
+  children?: ComponentChildren;
+}) {
   const ids = selected.value;
   const [first] = ids;
   if (first === undefined) return null;
@@ -27,6 +39,7 @@ export function SelectionBar({ shape, onEdit }: { shape: Shape; onEdit: () => vo
           <span class="quiet">{listWords(firstNames, 3, ids.length)}</span>
         </h3>
       )}
+      {children}
       <div class="chips">
         {like.length > real.length && (
           <button

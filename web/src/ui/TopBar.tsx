@@ -39,6 +39,12 @@ function exportItems(): MenuItem[] {
       act: () => void exportModel('all', { repair: true }),
     },
     {
+      label: 'Edited, gaps filled',
+      hint: '.glb',
+      disabled: noLayer,
+      act: () => void exportModel('all', { repair: 'fill' }),
+    },
+    {
       label: selected.value.length > 1 ? 'Selected parts only' : 'Selected part only',
       hint: '.glb',
       disabled: none || selected.value.length === 0,
