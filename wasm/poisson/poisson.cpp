@@ -19,12 +19,15 @@ struct MemoryInfo {
   static std::size_t Usage() { return 0; }
 };
 
-#include "MarchingCubes.h"
-#include "MultiGridOctreeData.h"
+// They build on each other in this order.
+// clang-format off
 #include "MyTime.h"
+#include "MarchingCubes.h"
 #include "Octree.h"
-#include "PPolynomial.h"
 #include "SparseMatrix.h"
+#include "PPolynomial.h"
+#include "MultiGridOctreeData.h"
+// clang-format on
 
 namespace {
 
