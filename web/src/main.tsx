@@ -1,6 +1,7 @@
 import { render } from 'preact';
 import { start } from './session/core';
 import { say } from './session/session';
+import { t } from './texts/texts';
 import { App } from './ui/App';
 import { exposeForDebugging } from './ui/debug';
 import { isEmbedded, isInForeignFrame } from './ui/frame';
@@ -13,7 +14,7 @@ exposeForDebugging();
 // A piece that is loaded late is gone when the server has a newer version.
 addEventListener('vite:preloadError', (event) => {
   event.preventDefault();
-  say('A part of the page is no longer there: it was updated meanwhile. Reload the page; your work is kept.', 'error');
+  say(t`A part of the page is no longer there: it was updated meanwhile. Reload the page; your work is kept.`, 'error');
 });
 const missing = missingSupport(detectSupport());
 if (isInForeignFrame() && !isEmbedded) {
@@ -37,9 +38,9 @@ function Framed() {
     <main class="notice">
       <h1>ParSEL</h1>
       <p>
-        ParSEL does not run inside another site's page, for your safety.{' '}
+        {t`ParSEL does not run inside another site's page, for your safety.`}{' '}
         <a href={location.href} target="_blank" rel="noopener">
-          Open it by itself
+          {t`Open it by itself`}
         </a>
         .
       </p>

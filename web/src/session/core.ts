@@ -1,6 +1,8 @@
 // The page's one core: started with the page, and what the page knows about it.
+
 import { computed, signal } from '@preact/signals';
 import wasmUrl from 'parsel-module/parsel.wasm?url';
+import { t } from '../texts/texts';
 import { type CoreClient, startCore } from '../worker/client';
 import { type ModelCore, modelCore } from './model_core';
 
@@ -25,6 +27,6 @@ export async function start(): Promise<void> {
     core.value = { kind: 'ready', version: result.version, client: started };
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);
-    core.value = { kind: 'failed', text: `The core could not be loaded (${reason}). Reload the page to try again.` };
+    core.value = { kind: 'failed', text: t`The core could not be loaded (${reason}). Reload the page to try again.` };
   }
 }

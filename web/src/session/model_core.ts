@@ -1,7 +1,9 @@
 // What the session asks of the core, and the core that answers. The core keeps one model; whichever a call is about (after
 // undo, say, or in a new worker) is its state.
+
 import type { Program, Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
+import { t } from '../texts/texts';
 import type { CallOptions, CoreClient, CoreState } from '../worker/client';
 import type { Inference, MethodResult, Parameters, PlainInference, Replies } from '../worker/protocol';
 import { type EditInput, type Labels, noLabels, type OpenModel } from './document';
@@ -122,7 +124,7 @@ export function modelCore(client: CoreClient): ModelCore {
         needs: stateOf({ files, labels: noLabels }),
       });
       const [main] = buffers;
-      if (main === undefined) throw new Error('The core gave no file.');
+      if (main === undefined) throw new Error(t`The core gave no file.`);
       const { converted, decompressed } = files;
       return {
         files: {
@@ -178,7 +180,7 @@ export function modelCore(client: CoreClient): ModelCore {
     async readCad(name, text, options) {
       const { result, buffers } = await client.call('open_cad', { name }, { ...options, buffers: [text] });
       const [glb] = buffers;
-      if (glb === undefined) throw new Error('The core gave no file.');
+      if (glb === undefined) throw new Error(t`The core gave no file.`);
       return { read: result, glb };
     },
     async findFamily(about, options) {
@@ -207,7 +209,7 @@ export function modelCore(client: CoreClient): ModelCore {
       };
       const { result, buffers } = await client.call('apply', parameters, { needs: stateOf(model) });
       const [glb] = buffers;
-      if (glb === undefined) throw new Error('The core gave no file.');
+      if (glb === undefined) throw new Error(t`The core gave no file.`);
       return {
         glb,
         warnings: result.warnings.map(({ place, text }) => [place, text].filter(Boolean).join(': ')),

@@ -1,4 +1,5 @@
 // The page: the stage fills the window, panels float on it.
+
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
@@ -8,6 +9,7 @@ import { readDropped } from '../session/files';
 import { lookOnOpening } from '../session/page_offers';
 import { document } from '../session/session';
 import { suggestions } from '../session/suggestions';
+import { t } from '../texts/texts';
 import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
 import { Compass } from './Compass';
@@ -30,6 +32,7 @@ import { PlaceOffer } from './PlaceCard';
 import { ProgramDialog } from './ProgramDialog';
 import { ReadingsDialog } from './ReadingsDialog';
 import { RightPanel } from './RightPanel';
+import { rich } from './rich';
 import { ShareDialog } from './ShareDialog';
 import { SplitOffer } from './SplitCard';
 import { StageView } from './StageView';
@@ -44,7 +47,7 @@ import type { FeatureKind } from './words';
 const PrintDialog = lazily(
   async () => (await import('./PrintDialog')).PrintDialog,
   (line) => (
-    <Dialog title="For printing" onClose={closeDialog}>
+    <Dialog title={t`For printing`} onClose={closeDialog}>
       {line}
     </Dialog>
   ),
@@ -111,10 +114,10 @@ export function App() {
           </Sheet>
         ) : (
           <>
-            <SidePanel title="Parts" side="left" open={partsOpen}>
+            <SidePanel title={t`Parts`} side="left" open={partsOpen}>
               {parts}
             </SidePanel>
-            <SidePanel title="Edits" side="right" open={editsOpen}>
+            <SidePanel title={t`Edits`} side="right" open={editsOpen}>
               {edits}
             </SidePanel>
           </>
@@ -140,7 +143,9 @@ export function App() {
       {!isPhone.value && (
         <footer class="foot quiet">
           <p>
-            After <a href="https://arxiv.org/abs/2405.20319">ParSEL</a>, Ganeshan et al. 2024
+            {rich(t`After <a>ParSEL</a>, Ganeshan et al. 2024`, {
+              a: (text) => <a href="https://arxiv.org/abs/2405.20319">{text}</a>,
+            })}
           </p>
           <Licences />
         </footer>
@@ -156,7 +161,7 @@ export function App() {
       {dialog.value === 'readings' && <ReadingsDialog />}
       {dropping.value && (
         <div class="drop" aria-hidden="true">
-          <p>Drop a model to open it</p>
+          <p>{t`Drop a model to open it`}</p>
         </div>
       )}
     </div>
@@ -179,7 +184,7 @@ function SidePanel({ title, side, open, children }: Foldable & { title: string; 
           type="button"
           class="button icon-only"
           aria-expanded={open.value}
-          aria-label={`${open.value ? 'Fold' : 'Unfold'} ${title}`}
+          aria-label={open.value ? t`Fold ${title}` : t`Unfold ${title}`}
           onClick={() => {
             open.value = !open.value;
           }}
@@ -194,7 +199,7 @@ function SidePanel({ title, side, open, children }: Foldable & { title: string; 
 
 function Sheet({ tab, open, children }: Foldable & { tab: { value: 'edits' | 'parts' } }) {
   return (
-    <section class={`sheet panel ${open.value ? '' : 'folded'}`} aria-label="Edits and parts">
+    <section class={`sheet panel ${open.value ? '' : 'folded'}`} aria-label={t`Edits and parts`}>
       <div class="tabs">
         {(['edits', 'parts'] as const).map((name) => (
           <button
@@ -206,7 +211,7 @@ function Sheet({ tab, open, children }: Foldable & { tab: { value: 'edits' | 'pa
               tab.value = name;
             }}
           >
-            {name === 'edits' ? 'Edits' : 'Parts'}
+            {name === 'edits' ? t`Edits` : t`Parts`}
           </button>
         ))}
       </div>

@@ -1,5 +1,6 @@
 // Other readings of a layer's request, side by side: one slider drives them all, the parts that do something else than in
 // the layer as it is are tinted, and choosing one puts it in the layer's place.
+
 import { signal, useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { Layer, Shape, Statement } from '../program/types';
@@ -13,6 +14,7 @@ import { playOnce, prefersReducedMotion } from '../session/play';
 import { isClean, type Proposal } from '../session/proposals';
 import { document, exchangeLayer } from '../session/session';
 import { otherReadings } from '../session/suggestions';
+import { t } from '../texts/texts';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
 import { Icon } from './Icon';
@@ -48,16 +50,16 @@ export function ReadingsDialog() {
   const title = titleOf(entry.layer);
   const proposals = asked?.proposals ?? [];
   return (
-    <Dialog title={`Other readings of “${title}”`} class="readings" onClose={close}>
+    <Dialog title={t`Other readings of “${title}”`} class="readings" onClose={close}>
       <div class="row progress" role="status">
         {asked?.isRunning && (
           <>
             <span class="spinner" aria-hidden="true" />
             <p class="grow quiet">
-              {asked.isAsking ? 'Asking what else it may mean' : 'Working out what the other parts do'}
+              {asked.isAsking ? t`Asking what else it may mean` : t`Working out what the other parts do`}
             </p>
             <button type="button" class="button" onClick={otherReadings.stop}>
-              Cancel
+              {t`Cancel`}
             </button>
           </>
         )}
@@ -68,7 +70,7 @@ export function ReadingsDialog() {
           <p class="grow">{asked.failure.text}</p>
           {asked.failure.isSetting && (
             <button type="button" class="button" onClick={() => (dialog.value = 'model')}>
-              Settings
+              {t`Settings`}
             </button>
           )}
         </div>
@@ -78,8 +80,8 @@ export function ReadingsDialog() {
         <button
           type="button"
           class="button icon-only"
-          aria-label={isPlaying.value ? 'Stop' : 'Animate all'}
-          title={isPlaying.value ? 'Stop' : 'Animate all'}
+          aria-label={isPlaying.value ? t`Stop` : t`Animate all`}
+          title={isPlaying.value ? t`Stop` : t`Animate all`}
           onClick={() => {
             isPlaying.value = !isPlaying.value;
           }}
@@ -93,7 +95,7 @@ export function ReadingsDialog() {
           max={1}
           step={0.01}
           value={share.value}
-          aria-label="How far, in all readings"
+          aria-label={t`How far, in all readings`}
           onInput={(event) => {
             isPlaying.value = false;
             share.value = event.currentTarget.valueAsNumber;
@@ -170,9 +172,9 @@ function ReadingList({ model, entry, proposals, share, close }: ListProps) {
   );
   return (
     <ul class="other-readings">
-      <li class="card" aria-label="As it is now">
+      <li class="card" aria-label={t`As it is now`}>
         {canvas(0)}
-        <p>As it is now</p>
+        <p>{t`As it is now`}</p>
       </li>
       {proposals.map((proposal) => (
         <li class="card" key={proposal.key} aria-label={proposal.request}>
@@ -190,7 +192,7 @@ function ReadingList({ model, entry, proposals, share, close }: ListProps) {
                 playOnce(entry.key);
               }}
             >
-              Take this
+              {t`Take this`}
             </button>
           )}
         </li>
@@ -200,8 +202,8 @@ function ReadingList({ model, entry, proposals, share, close }: ListProps) {
 }
 
 function Said({ model, proposal: { state } }: { model: OpenModel; proposal: Proposal }) {
-  if (state.kind === 'reading') return <p class="quiet">Being read…</p>;
-  if (state.kind === 'stopped') return <p class="quiet">Not read: it was stopped.</p>;
+  if (state.kind === 'reading') return <p class="quiet">{t`Being read…`}</p>;
+  if (state.kind === 'stopped') return <p class="quiet">{t`Not read: it was stopped.`}</p>;
   if (state.kind === 'refused') return <p class="broken">{state.text}</p>;
   const fault = state.kind === 'found' ? state.fault : null;
   return fault && <p class="broken">{faultWords(model, fault)}</p>;

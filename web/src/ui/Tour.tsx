@@ -1,7 +1,9 @@
 // A walk through the page in a few steps: offered at the first visit, started again from the help menu, left at any time.
+
 import { signal, useSignal } from '@preact/signals';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { document } from '../session/session';
+import { m, type Sentence, t } from '../texts/texts';
 import { Icon } from './Icon';
 
 const storageKey = 'parsel-tour';
@@ -40,12 +42,12 @@ export function TourOffer() {
   const { model, layers } = document.value;
   if (offered.value || step.value !== null || model === null || layers.length > 1) return null;
   return (
-    <section class="panel note tour-offer" aria-label="Tour">
-      <span>New here?</span>
+    <section class="panel note tour-offer" aria-label={t`Tour`}>
+      <span>{t`New here?`}</span>
       <button type="button" class="button" onClick={startTour}>
-        Show me around
+        {t`Show me around`}
       </button>
-      <button type="button" class="button icon-only" aria-label="No tour" onClick={settleOffer}>
+      <button type="button" class="button icon-only" aria-label={t`No tour`} onClick={settleOffer}>
         <Icon name="close" />
       </button>
     </section>
@@ -55,35 +57,35 @@ export function TourOffer() {
 interface Step {
   /** What it is about: the first of these that is on the page. */
   readonly at: readonly string[];
-  readonly title: string;
-  readonly text: string;
+  readonly title: Sentence;
+  readonly text: Sentence;
 }
 
 const steps: readonly Step[] = [
   {
     at: ['.stage'],
-    title: 'Click a part, pull a handle',
-    text: 'A dot pulls a face, the middle moves the part. Everything that is joined to it follows while you pull.',
+    title: m`Click a part, pull a handle`,
+    text: m`A dot pulls a face, the middle moves the part. Everything that is joined to it follows while you pull.`,
   },
   {
     at: ['.composer', '.suggestions', '.hand-buttons', '.tabs'],
-    title: 'Or say what to change',
-    text: 'In a sentence, in your language. Without a key of a language model, the suggestions show how it works.',
+    title: m`Or say what to change`,
+    text: m`In a sentence, in your language. Without a key of a language model, the suggestions show how it works.`,
   },
   {
     at: ['.card', '.side.right', '.tabs'],
-    title: 'Every change is a slider',
-    text: 'Drag it, type a length, double-click to go back. Below it stands what the change keeps, and why each part moves.',
+    title: m`Every change is a slider`,
+    text: m`Drag it, type a length, double-click to go back. Below it stands what the change keeps, and why each part moves.`,
   },
   {
     at: ['.side.left', '.tabs'],
-    title: 'The parts',
-    text: 'Select, hide, rename and label them. A selected part tells what holds it and why it moved.',
+    title: m`The parts`,
+    text: m`Select, hide, rename and label them. A selected part tells what holds it and why it moved.`,
   },
   {
     at: ['.bar'],
-    title: 'Yours to take',
-    text: 'Undo anything. Share a link with the sliders in it, or export the model with its own names and materials.',
+    title: m`Yours to take`,
+    text: m`Undo anything. Share a link with the sliders in it, or export the model with its own names and materials.`,
   },
 ];
 
@@ -135,7 +137,7 @@ export function Tour() {
       <div
         class="panel tour"
         role="dialog"
-        aria-label={`Tour, ${at + 1} of ${steps.length}: ${shown.title}`}
+        aria-label={t`Tour, ${at + 1} of ${steps.length}: ${t(shown.title)}`}
         aria-describedby="tour-text"
         ref={box}
         onKeyDown={(event) => {
@@ -147,24 +149,22 @@ export function Tour() {
           event.stopPropagation();
         }}
       >
-        <h2>{shown.title}</h2>
-        <p id="tour-text">{shown.text}</p>
+        <h2>{t(shown.title)}</h2>
+        <p id="tour-text">{t(shown.text)}</p>
         <div class="row">
-          <span class="quiet grow">
-            {at + 1} of {steps.length}
-          </span>
+          <span class="quiet grow">{t`${at + 1} of ${steps.length}`}</span>
           {at + 1 < steps.length && (
             <button type="button" class="button" onClick={() => (step.value = null)}>
-              Skip
+              {t`Skip`}
             </button>
           )}
           {at > 0 && (
             <button type="button" class="button" onClick={() => go(at - 1)}>
-              Back
+              {t`Back`}
             </button>
           )}
           <button type="button" class="button primary" ref={next} onClick={() => go(at + 1)}>
-            {at + 1 < steps.length ? 'Next' : 'Done'}
+            {at + 1 < steps.length ? t`Next` : t`Done`}
           </button>
         </div>
       </div>
