@@ -23,6 +23,21 @@ const spoken = new Set([
 ]);
 /** Calls whose first text is shown. */
 const says = new Set(['say', 'run', 'FileError', 'AskError', 'change', 'refused']);
+/** What these say is said to language models, read as plain requests, or printed by the build: in English. */
+const english = new Set([
+  'llm/structure.ts',
+  'session/looking.ts',
+  'session/side_words.ts',
+  'session/model_hosts.ts',
+  'ui/debug.ts',
+]);
+/** Texts that nobody reads: of selectors, to a language model, of mistakes of our own. */
+const unread = new Set([
+  'button, summary, input, a',
+  'Reply with the one word: ready',
+  'The vote is decided.',
+  'there is no model to save the work on',
+]);
 /** Names and units, the same in every language. */
 const untranslated = /^[\s·,.:;()×%]*(ParSEL|OpenSCAD|kB|mm)?[\s·,.:;()×%]*$/;
 
@@ -31,6 +46,13 @@ const keyOf = (template) =>
   ts.isNoSubstitutionTemplateLiteral(template)
     ? template.text
     : template.templateSpans.reduce((text, { literal }, i) => `${text}{${i}}${literal.text}`, template.head.text);
+
+/** Four words and more are for people, wherever they stand. */
+const isSentence = (node) =>
+  /(\b[a-z’']+[,:;]? ){3}[a-z’']+/i.test(keyOfText(node)) &&
+  !ts.isTaggedTemplateExpression(node.parent) &&
+  !(ts.isCallExpression(node.parent) && node.parent.expression.getText() === 'plural') &&
+  !(ts.isJsxAttribute(node.parent) && !spoken.has(node.parent.name.getText()));
 
 const hasWords = (text) => /[a-z]{2}/i.test(text);
 const isText = (node) =>
@@ -70,6 +92,7 @@ export function saidIn(file, code) {
         keys.set(many.text, { hasForms: true, one: one.text });
       else fault(node, 'plural takes its two forms as plain texts');
     }
+    if (isText(node) && isSentence(node) && !english.has(file) && !unread.has(keyOfText(node))) shows(node);
     if (ts.isJsxText(node) && hasWords(node.text) && !untranslated.test(node.text))
       fault(node, `“${node.text.trim()}” is shown, but not marked with t`);
     if (ts.isJsxExpression(node) && !ts.isJsxAttribute(node.parent)) shows(node.expression);

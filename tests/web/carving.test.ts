@@ -34,6 +34,7 @@ const result = {
   moved: [[`node:${right.node}/0`, `node:${right.node}/1`]] as const,
   made: ['node:7/0', 'node:8/0'],
   lost: [],
+  open: [],
 };
 const carve = async (files: ModelFiles, now: CarveStep) => ({
   files: withStep(files, new Uint8Array([2]), now),
@@ -56,6 +57,13 @@ afterEach(() => {
 });
 
 describe('a part that is changed by hand', () => {
+  it('is named where its cut stays open', async () => {
+    const { core } = ready();
+    const cut: CarveStep = { kind: 'cut', parts: [`node:${left.node}/0`], plane: [1, 0, 0, 0] };
+    await carveModel(core, cut, async (files, now) => ({ ...(await carve(files, now)), open: ['curtain'] }));
+    expect(notice.peek()?.text).toBe('The cut through curtain stays open: only closed solids are closed again.');
+  });
+
   it('leaves what was said of the others, under their new keys, in one step', async () => {
     const { core, opened } = ready();
     session.renamePart(right.id, 'the right one');

@@ -2,7 +2,6 @@
 import { type Node, WebIO } from '@gltf-transform/core';
 import { validateBytes } from 'gltf-validator';
 import { describe, expect, it } from 'vitest';
-import { carve } from '../../web/src/carve/carve';
 import { apply } from '../../web/src/carve/matrix';
 import {
   asInFile,
@@ -20,6 +19,7 @@ import { extentOf, isPlaced, placingOf, seemsDrawnIn, seemsUp } from '../../web/
 import { readSaved } from '../../web/src/share/saved';
 import { stool } from '../e2e/fixture';
 import { box, oneBox } from './box_shapes';
+import { carve } from './carve_here';
 
 const dot = (a: readonly number[], b: readonly number[]) => a.reduce((sum, value, i) => sum + value * (b[i] ?? 0), 0);
 /** Where a direction of the file goes. */

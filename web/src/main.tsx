@@ -5,6 +5,7 @@ import { t } from './texts/texts';
 import { App } from './ui/App';
 import { exposeForDebugging } from './ui/debug';
 import { isEmbedded, isInForeignFrame } from './ui/frame';
+import { speakPreferred } from './ui/language';
 import { detectSupport, missingSupport } from './ui/support';
 
 const root = document.getElementById('app');
@@ -16,19 +17,21 @@ addEventListener('vite:preloadError', (event) => {
   event.preventDefault();
   say(t`A part of the page is no longer there: it was updated meanwhile. Reload the page; your work is kept.`, 'error');
 });
-const missing = missingSupport(detectSupport());
-if (isInForeignFrame() && !isEmbedded) {
+const isFramed = isInForeignFrame() && !isEmbedded;
+const isSupported = missingSupport(detectSupport()) === null;
+if (!isFramed && isSupported) void start(); // the core is on its way while the words are fetched
+await speakPreferred();
+if (isFramed) {
   render(<Framed />, root);
-} else if (missing !== null) {
+} else if (!isSupported) {
   render(
     <main class="notice">
       <h1>ParSEL</h1>
-      <p>{missing}</p>
+      <p>{missingSupport(detectSupport())}</p>
     </main>,
     root,
   );
 } else {
-  void start();
   render(<App />, root);
 }
 

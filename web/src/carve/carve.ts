@@ -5,11 +5,12 @@
 import { type Document, Logger, type Mesh, type Node, type Primitive, Verbosity, WebIO } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { readJson } from '../formats/read_gltf';
-import { cutTriangles, type Side } from './cut';
+import type { Triangulate } from './caps';
+import type { Side } from './cut';
 import { chosen, pieces, places, triangleList, trianglesOf } from './geometry';
 import { joined } from './join';
-import { apply, determinant } from './matrix';
 import { axesOf, type Placing, placingNode } from './placing';
+import { sidesOf } from './sides';
 import { type Carved, CarveError, type CarveStep, type PartKey, type Plane, partKeyOf, partOf } from './steps';
 
 const known = new Set(ALL_EXTENSIONS.map(({ EXTENSION_NAME }) => EXTENSION_NAME));
@@ -22,15 +23,23 @@ export interface CarveFiles {
   readonly external: ReadonlyMap<string, Uint8Array>;
 }
 
-/** Throws a CarveError when the step cannot be done; then nothing was. */
-export async function carve(files: CarveFiles, step: CarveStep): Promise<Carved> {
+/**
+ * Throws a CarveError when the step cannot be done; then nothing was.
+ * @param triangulate closes what is cut (solid/manifold.ts); asked for by cuts alone
+ */
+export async function carve(
+  files: CarveFiles,
+  step: CarveStep,
+  triangulate: () => Promise<Triangulate>,
+): Promise<Carved> {
   const io = new WebIO().setLogger(new Logger(Verbosity.SILENT)).registerExtensions(ALL_EXTENSIONS);
   const { json, resources } = await readJson(files, io);
   const lost = (json.extensionsUsed ?? []).filter((name) => !known.has(name));
   const required = (json.extensionsRequired ?? []).filter((name) => known.has(name));
   const document = await io.readJSON({ json: { ...json, extensionsRequired: required }, resources });
   const carver = new Carver(document);
-  carver.run(step);
+  if (step.kind === 'cut') carver.cut(step, await triangulate());
+  else carver.run(step);
   const root = document.getRoot();
   for (const accessor of root.listAccessors())
     if (accessor.listParents().every((parent) => parent === root)) accessor.dispose();
@@ -54,23 +63,20 @@ class Carver {
   /** Primitives as they were keyed before. */
   readonly #before = new Map<Primitive, PartKey[]>();
   readonly #made: Node[] = [];
+  readonly #open: string[] = [];
 
   constructor(readonly document: Document) {
     this.#nodes = document.getRoot().listNodes();
   }
 
-  run(step: CarveStep): void {
+  run(step: Exclude<CarveStep, { kind: 'cut' }>): void {
     if (step.kind === 'place') this.#stand(step);
     else if (step.kind === 'divide') this.#divide(this.#place(step.part));
-    else {
-      const at = step.parts.map((key) => this.#place(key));
-      if (step.kind === 'join') this.#join(at);
-      else this.#cut(at, step.plane);
-    }
+    else this.#join(step.parts.map((key) => this.#place(key)));
   }
 
   /** Which parts have other keys now, and which are new. */
-  result(): Pick<Carved, 'moved' | 'made'> {
+  result(): Pick<Carved, 'moved' | 'made' | 'open'> {
     const nodes = this.document.getRoot().listNodes();
     const moved: [PartKey, PartKey][] = [];
     for (const [n, node] of nodes.entries())
@@ -79,7 +85,7 @@ class Carver {
         const was = this.#before.get(primitive)?.find((key) => partOf(key).node === n);
         if (was !== undefined && was !== now) moved.push([was, now]);
       }
-    return { moved, made: this.#made.map((node) => partKeyOf(nodes.indexOf(node), 0)) };
+    return { moved, made: this.#made.map((node) => partKeyOf(nodes.indexOf(node), 0)), open: this.#open };
   }
 
   #place(key: PartKey): Place {
@@ -172,59 +178,22 @@ class Carver {
     for (const [i, part] of parts.entries()) this.#add(node, `${name} ${i + 1}`, part);
   }
 
-  #cut(at: readonly Place[], plane: Plane): void {
-    const cuts = at.flatMap((place) => {
-      const sides = this.#sidesOf(place, plane);
-      return sides === null ? [] : [{ place, sides }];
+  cut({ parts, plane }: Extract<CarveStep, { kind: 'cut' }>, triangulate: Triangulate): void {
+    const cuts = parts.flatMap((key) => {
+      const place = this.#place(key);
+      const cut = sidesOf(place, plane, triangulate);
+      return cut === null ? [] : [{ place, ...cut }];
     });
     if (cuts.length === 0)
       throw new CarveError('The plane goes through none of these parts. Drag it into one and cut again.');
     const names = sideNames(plane);
-    for (const { place, sides } of cuts) {
+    for (const { place, sides, isOpen } of cuts) {
       const name = place.node.getName() || 'part';
-      const parts = sides.map((side) => this.#primitive(place.primitive, side));
+      if (isOpen) this.#open.push(name);
+      const made = sides.map((side) => this.#primitive(place.primitive, side));
       this.#takeOut(place);
-      for (const [i, part] of parts.entries()) this.#add(place.node, `${name} ${names[i]}`, part);
+      for (const [i, part] of made.entries()) this.#add(place.node, `${name} ${names[i]}`, part);
     }
-  }
-
-  /** Both sides of a plane; null where the part is on one. */
-  #sidesOf({ node, primitive }: Place, [nx, ny, nz, distance]: Plane): readonly [Side, Side] | null {
-    const position = primitive.getAttribute('POSITION');
-    if (position === null) return null;
-    const world = node.getWorldMatrix();
-    const count = position.getCount();
-    const points = new Float64Array(3 * count);
-    const from = new Float64Array(count);
-    const element: number[] = [];
-    let reach = 0;
-    for (let i = 0; i < count; i++) {
-      const [x, y, z] = apply(world, position.getElement(i, element));
-      points.set([x, y, z], 3 * i);
-      from[i] = nx * x + ny * y + nz * z - distance;
-      reach = Math.max(reach, Math.abs(x), Math.abs(y), Math.abs(z));
-    }
-    // As near as floats can say: it is on the plane.
-    const near = Math.max(1e-12, 1e-6 * reach);
-    for (let i = 0; i < count; i++) if (Math.abs(from[i] ?? 0) <= near) from[i] = 0;
-    const triangles = trianglesOf(primitive);
-    if (!triangles.some((corner) => (from[corner] ?? 0) > 0) || !triangles.some((corner) => (from[corner] ?? 0) < 0))
-      return null;
-    const turned = determinant(world) < 0 ? -1 : 1;
-    const point = (t: number, k: number, axis: number) => points[3 * (triangles[3 * t + k] ?? 0) + axis] ?? 0;
-    const isLid = (t: number) => {
-      const edge = (k: number, axis: number) => point(t, k, axis) - point(t, 0, axis);
-      const across = (b: number, c: number) => edge(1, b) * edge(2, c) - edge(1, c) * edge(2, b);
-      return turned * (nx * across(1, 2) + ny * across(2, 0) + nz * across(0, 1)) > 0;
-    };
-    const before = (a: number, b: number) => {
-      for (let axis = 0; axis < 3; axis++) {
-        const [one, two] = [points[3 * a + axis] ?? 0, points[3 * b + axis] ?? 0];
-        if (one !== two) return one < two;
-      }
-      return a < b;
-    };
-    return cutTriangles(triangles, from, isLid, before);
   }
 
   /** One node above all others turns and scales them. */

@@ -1,11 +1,17 @@
 // A cut by a plane: triangles that it goes through become up to three, and both sides get the corners on it.
-import type { Between, Triangles } from './geometry';
+import type { Between, Corner, Triangles } from './geometry';
 
 export interface Side {
   /** Corners as they were, and those that the plane makes. */
-  readonly corners: readonly (number | Between)[];
+  readonly corners: readonly Corner[];
   /** Indices into these. */
   readonly triangles: Triangles;
+}
+
+export interface CutSide extends Side {
+  readonly corners: readonly (number | Between)[];
+  /** Of each triangle, which one it is of. */
+  readonly source: readonly number[];
 }
 
 /**
@@ -21,7 +27,7 @@ export function cutTriangles(
   distance: ArrayLike<number>,
   isLid: (triangle: number) => boolean,
   before: (a: number, b: number) => boolean,
-): readonly [above: Side, below: Side] {
+): readonly [above: CutSide, below: CutSide] {
   const above = new SideBuilder();
   const below = new SideBuilder();
   const at = (corner: number) => distance[corner] ?? 0;
@@ -34,7 +40,7 @@ export function cutTriangles(
     const signs = corners.map((corner) => Math.sign(at(corner)));
     const side = signs.includes(1) ? above : signs.includes(-1) ? below : isLid(t / 3) ? below : above;
     if (!signs.includes(side === above ? -1 : 1)) {
-      side.add(corners);
+      side.add(corners, t / 3);
       continue;
     }
     for (const [builder, sign] of [
@@ -48,7 +54,7 @@ export function cutTriangles(
         if (here !== -sign) polygon.push(corner);
         if (here * there < 0) polygon.push(between(corner, next));
       }
-      builder.add(polygon);
+      builder.add(polygon, t / 3);
     }
   }
   return [above.done(), below.done()];
@@ -59,15 +65,19 @@ class SideBuilder {
   readonly #corners: (number | Between)[] = [];
   readonly #numbers = new Map<string | number, number>();
   readonly #triangles: number[] = [];
+  readonly #source: number[] = [];
 
-  /** A convex polygon, as triangles. */
-  add(polygon: readonly (number | Between)[]): void {
+  /** A convex polygon within a triangle, as triangles. */
+  add(polygon: readonly (number | Between)[], source: number): void {
     const [first, ...others] = polygon.map((corner) => this.#number(corner));
-    for (let i = 1; i < others.length; i++) this.#triangles.push(first ?? 0, others[i - 1] ?? 0, others[i] ?? 0);
+    for (let i = 1; i < others.length; i++) {
+      this.#triangles.push(first ?? 0, others[i - 1] ?? 0, others[i] ?? 0);
+      this.#source.push(source);
+    }
   }
 
-  done(): Side {
-    return { corners: this.#corners, triangles: Uint32Array.from(this.#triangles) };
+  done(): CutSide {
+    return { corners: this.#corners, triangles: Uint32Array.from(this.#triangles), source: this.#source };
   }
 
   #number(corner: number | Between): number {

@@ -34,18 +34,29 @@ export interface Between {
   readonly share: number;
 }
 
+/** A corner of what closes a cut: where another is, with all that that carries, but for which way it looks. */
+export interface Facing {
+  readonly at: number | Between;
+  /** Of length 1, in the part's own frame. */
+  readonly normal: readonly [number, number, number];
+}
+
+export type Corner = number | Between | Facing;
+
+const isFacing = (corner: Corner): corner is Facing => typeof corner !== 'number' && 'normal' in corner;
+
 /** Semantics whose elements have length 1 in their first three components. */
 const isDirection = (semantic: string) => semantic === 'NORMAL' || semantic === 'TANGENT';
 
 /**
  * An accessor of chosen corners, as they are stored, and of those between others, interpolated.
- * @param corners what element i is: a corner, or a place between two
+ * @param corners what element i is: a corner, a place between two, or one of these that looks another way
  */
-export function chosen(source: Accessor, semantic: string, corners: readonly (number | Between)[]): Accessor {
+export function chosen(source: Accessor, semantic: string, corners: readonly Corner[]): Accessor {
   const array = source.getArray();
   if (array === null) throw new CarveError('This part has no corners. Export the model again.');
   const size = source.getElementSize();
-  const isMade = corners.some((corner) => typeof corner !== 'number');
+  const isMade = corners.some((corner) => typeof (isFacing(corner) ? corner.at : corner) !== 'number');
   // Places that were rounded to a grid of the file would leave the plane.
   const isExact = isMade && semantic === 'POSITION' && !(array instanceof Float32Array);
   const kind = array.constructor as new (length: number) => TypedArray;
@@ -55,15 +66,28 @@ export function chosen(source: Accessor, semantic: string, corners: readonly (nu
   if (isExact) made.setNormalized(false);
   const target = made.getArray() as TypedArray;
   const [element, a, b]: [number[], number[], number[]] = [[], [], []];
-  for (const [i, corner] of corners.entries()) {
-    if (typeof corner === 'number' && !isExact) {
+  for (const [i, one] of corners.entries()) {
+    const corner = isFacing(one) ? one.at : one;
+    if (isFacing(one) && isDirection(semantic)) {
+      made.setElement(i, looking(one, semantic, source, element));
+    } else if (typeof corner === 'number' && !isExact) {
       for (let c = 0; c < size; c++) target[size * i + c] = array[size * corner + c] ?? 0;
-      continue;
-    }
-    if (typeof corner === 'number') made.setElement(i, source.getElement(corner, element));
+    } else if (typeof corner === 'number') made.setElement(i, source.getElement(corner, element));
     else made.setElement(i, between(source, semantic, corner, element, a, b));
   }
   return made;
+}
+
+/** The normal, or a tangent across it. */
+function looking({ at, normal }: Facing, semantic: string, source: Accessor, element: number[]): number[] {
+  if (semantic === 'NORMAL') return [...normal];
+  source.getElement(typeof at === 'number' ? at : at.from, element);
+  const [x, y, z] = normal;
+  // Across the normal and the axis that it is least along.
+  const least = Math.min(Math.abs(x), Math.abs(y), Math.abs(z));
+  const across = Math.abs(x) === least ? [0, z, -y] : Math.abs(y) === least ? [-z, 0, x] : [y, -x, 0];
+  const length = Math.sqrt(across.reduce((sum, value) => sum + value * value, 0)) || 1;
+  return [...across.map((value) => value / length), element[3] ?? 1];
 }
 
 function between(
@@ -85,15 +109,18 @@ function between(
   return out;
 }
 
-/** The corners at which triangles have one place, by position to the bit: of each corner, the first of them. */
-export function places(position: Accessor): Uint32Array {
+/**
+ * The corners at which triangles have one place: of each corner, the first of them.
+ * @param cell what is rounded to one multiple of it, in the file's own unit, is one place; 0: positions to the bit
+ */
+export function places(position: Accessor, cell = 0): Uint32Array {
   const first = new Map<string, number>();
   const of = new Uint32Array(position.getCount());
   const element: number[] = [];
   for (let i = 0; i < of.length; i++) {
     const key = position
       .getElement(i, element)
-      .map((value) => value + 0)
+      .map((value) => (cell > 0 ? Math.round(value / cell) : value) + 0)
       .join(); // −0 is 0
     const known = first.get(key);
     if (known === undefined) first.set(key, i);

@@ -1,6 +1,8 @@
-// Several primitives of one material as one, in the frame of the first.
+// Several primitives of one material as one, in the frame of the first. Where closed ones lie face to face, as the two sides
+// of a cut do, these faces are inside and go.
 import type { Accessor, Document, Primitive, TypedArray } from '@gltf-transform/core';
-import { triangleList, trianglesOf } from './geometry';
+import { closedPieces } from './caps';
+import { pieces, places, triangleList, trianglesOf } from './geometry';
 import { apply, cofactors, determinant, type Matrix, relative } from './matrix';
 import { CarveError } from './steps';
 
@@ -32,20 +34,50 @@ export function joined(document: Document, parts: readonly Joinable[]): Primitiv
   });
   const made = first.primitive.clone().setMode(triangleList);
   for (const semantic of semantics) made.setAttribute(semantic, merged(frames, semantic));
-  const total = frames.reduce((sum, { count }) => sum + count, 0);
-  const indices: number[] = [];
-  let start = 0;
+  const lists: Uint32Array<ArrayBuffer>[] = [];
+  let total = 0;
   for (const { primitive, count, turned } of frames) {
-    const triangles = trianglesOf(primitive);
-    for (let i = 0; i < triangles.length; i += 3) {
-      const [a, b, c] = [0, 1, 2].map((k) => start + (triangles[i + k] ?? 0)) as [number, number, number];
-      if (turned) indices.push(a, c, b);
-      else indices.push(a, b, c);
-    }
-    start += count;
+    const own = trianglesOf(primitive).map((corner) => corner + total);
+    for (let i = 0; turned && i < own.length; i += 3) own.subarray(i + 1, i + 3).reverse();
+    lists.push(own);
+    total += count;
   }
+  const position = made.getAttribute('POSITION');
+  const indices = position === null ? lists.flatMap((list) => [...list]) : withoutInner(lists, places(position));
   const array = total < 65535 ? Uint16Array.from(indices) : Uint32Array.from(indices);
   return made.setIndices(document.createAccessor().setType('SCALAR').setArray(array));
+}
+
+/** The triangles of all, without those of closed ones that lie back to back. */
+function withoutInner(lists: readonly Uint32Array<ArrayBuffer>[], place: Uint32Array): number[] {
+  const at = (list: Uint32Array, i: number) => place[list[i] ?? 0] ?? 0;
+  /** By places in order, of triangles that face one way and the other: the lists that have them. */
+  const facing = new Map<string, [number[], number[]]>();
+  const keyOf = (list: Uint32Array, i: number): readonly [key: string, sense: 0 | 1] => {
+    const [a, b, c] = [at(list, i), at(list, i + 1), at(list, i + 2)];
+    const isEven = (a < b && b < c) || (b < c && c < a) || (c < a && a < b);
+    return [[a, b, c].sort((x, y) => x - y).join(), isEven ? 0 : 1];
+  };
+  for (const [l, list] of lists.entries()) {
+    const { of, count } = pieces(list, place);
+    const closed = closedPieces(list, place, of, count);
+    for (let t = 0; t < of.length; t++) {
+      if (closed[of[t] ?? 0] !== 1) continue;
+      const [key, sense] = keyOf(list, 3 * t);
+      const both = facing.get(key) ?? [[], []];
+      both[sense].push(l);
+      facing.set(key, both);
+    }
+  }
+  const left: number[] = [];
+  for (const [l, list] of lists.entries())
+    for (let i = 0; i < list.length; i += 3) {
+      const [key, sense] = keyOf(list, i);
+      const [own, other] = [facing.get(key)?.[sense] ?? [], facing.get(key)?.[sense === 0 ? 1 : 0] ?? []];
+      const isInner = own.length === 1 && other.length === 1 && own[0] === l && other[0] !== l;
+      if (!isInner) left.push(list[i] ?? 0, list[i + 1] ?? 0, list[i + 2] ?? 0);
+    }
+  return left;
 }
 
 interface Frame {

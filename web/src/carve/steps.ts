@@ -37,4 +37,6 @@ export interface Carved {
   readonly moved: readonly (readonly [from: PartKey, to: PartKey])[];
   /** Parts that are new. */
   readonly made: readonly PartKey[];
+  /** Names of parts whose cut stays open, since they bound no solid. */
+  readonly open: readonly string[];
 }

@@ -1,7 +1,7 @@
 // Who can be asked: hosts, protocols and what each wants said differently. The page's Content-Security-Policy is made from
 // this list (web/csp.ts), so that a key can go to none but these hosts.
 
-import { m, type Sentence } from '../texts/texts';
+import { m, type Sentence, t } from '../texts/texts';
 export type Protocol = 'openai' | 'anthropic' | 'gemini';
 
 export interface Provider {
@@ -21,6 +21,10 @@ export interface Provider {
   /** What has to be set up first, in sentences. */
   readonly pitfalls: readonly Sentence[];
 }
+
+/** For people: servers on this machine say so. */
+export const titleOfProvider = ({ title, keysAt }: Provider): string =>
+  keysAt === null ? t`${title} on this machine` : title;
 
 const openai = { protocol: 'openai', structure: 'schema', sees: true, limit: 'max_tokens', pitfalls: [] } as const;
 
@@ -95,7 +99,7 @@ export const providers: readonly Provider[] = [
   {
     ...openai,
     id: 'ollama',
-    title: 'Ollama on this machine',
+    title: 'Ollama',
     base: 'http://localhost:11434/v1',
     keysAt: null,
     pitfalls: [
@@ -107,7 +111,7 @@ export const providers: readonly Provider[] = [
   {
     ...openai,
     id: 'lmstudio',
-    title: 'LM Studio on this machine',
+    title: 'LM Studio',
     base: 'http://localhost:1234/v1',
     keysAt: null,
     pitfalls: [

@@ -7,7 +7,7 @@ import type { Target, Tokens } from './adapter';
 import { AskError } from './ask_error';
 import { defaultModel } from './default_models';
 import { keyFor } from './keys';
-import { isAllowed, providerOf } from './providers';
+import { isAllowed, providerOf, titleOfProvider } from './providers';
 
 /** The recorded answers that come with the page, which need no key. */
 export const recorded = 'recorded';
@@ -102,7 +102,7 @@ export function currentTarget(): Target {
   if (key === '' && provider.keysAt !== null)
     throw new AskError(
       'no_key',
-      provider.title,
+      titleOfProvider(provider),
       t`wants a key`,
       t`Enter one in the settings, or switch to the recorded answers there`,
     );

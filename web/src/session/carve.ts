@@ -8,7 +8,7 @@ import { watched } from '../worker/watch';
 import { FileError } from './files';
 import type { RunOptions } from './tasks';
 
-export interface CarvedFiles extends Pick<Carved, 'lost' | 'moved' | 'made'> {
+export interface CarvedFiles extends Pick<Carved, 'lost' | 'moved' | 'made' | 'open'> {
   readonly files: ModelFiles;
 }
 

@@ -3,7 +3,7 @@
 
 import type { CarveStep, PartKey, Plane } from '../carve/steps';
 import type { Shape, Vec3 } from '../program/types';
-import { m, t } from '../texts/texts';
+import { m, plural, t } from '../texts/texts';
 import { type CarvedFiles, type Carver, carved } from './carve';
 import { type Document, type OpenModel, partKey } from './document';
 import type { ModelCore } from './model_core';
@@ -57,8 +57,17 @@ export async function carveModel(core: ModelCore, step: CarveStep, carve: Carver
   const isNew = new Set(found.made);
   selectAll(made.model.shape.parts.filter((part) => !part.virtual && isNew.has(partKey(part))).map(({ id }) => id));
   if (found.lost.length > 0) say(t`The file loses ${found.lost.slice(0, 3).join(', ')}, which is not known here.`);
+  else if (found.open.length > 0) say(openWords(found.open));
   return true;
 }
+
+const openWords = (names: readonly string[]): string =>
+  plural(
+    names.length,
+    'The cut through {0} stays open: only closed solids are closed again.',
+    'The cuts through {n} parts stay open ({0}): only closed solids are closed again.',
+    `${names.slice(0, 3).join(', ')}${names.length > 3 ? ', …' : ''}`,
+  );
 
 const newKey = ({ moved }: Pick<CarvedFiles, 'moved'>, key: PartKey): PartKey =>
   moved.find(([from]) => from === key)?.[1] ?? key; // parts of one node: few

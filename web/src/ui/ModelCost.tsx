@@ -1,7 +1,7 @@
 // What asking a language model means for whoever pays: what it has cost so far, and what goes to the provider.
 
 import { useSignal } from '@preact/signals';
-import { providerOf } from '../llm/providers';
+import { providerOf, titleOfProvider } from '../llm/providers';
 import { costOf } from '../llm/settings';
 import { type Spending, spent } from '../llm/spent';
 import { questionTexts } from '../session/requests';
@@ -23,6 +23,11 @@ function spentText({ provider, answers, uncounted, input, output }: Spending): s
     .join(' · ');
 }
 
+function nameOfProvider(id: string): string {
+  const provider = providerOf(id);
+  return provider === undefined ? id : titleOfProvider(provider);
+}
+
 /** By provider and model, since the page was opened. */
 export function SoFar() {
   return (
@@ -34,8 +39,7 @@ export function SoFar() {
         <ul>
           {spent.value.map((one) => (
             <li key={`${one.provider} ${one.model}`}>
-              {providerOf(one.provider)?.title ?? one.provider}, {one.model}:{' '}
-              <span class="quiet">{spentText(one)}</span>
+              {nameOfProvider(one.provider)}, {one.model}: <span class="quiet">{spentText(one)}</span>
             </li>
           ))}
         </ul>

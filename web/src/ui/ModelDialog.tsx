@@ -6,12 +6,13 @@ import { clearReplies } from '../llm/cache';
 import { defaultModel, lookedUp } from '../llm/default_models';
 import { complete, listModels } from '../llm/http';
 import { forgetKey, type Keeping, keepKey, keyFor } from '../llm/keys';
-import { isAllowed, type Provider, providerOf, providers } from '../llm/providers';
+import { isAllowed, type Provider, providerOf, providers, titleOfProvider } from '../llm/providers';
 import { choiceOf, choose, currentTarget, enteredOf, isDemo, maxVotes, recorded, settings } from '../llm/settings';
 import { sentence } from '../session/tasks';
-import { language, m, number, plural, type Sentence, t } from '../texts/texts';
+import { type Language, language, languages, m, number, plural, type Sentence, t } from '../texts/texts';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
+import { changeLanguage } from './language';
 import { SoFar, WhatIsSent } from './ModelCost';
 
 const keepings: readonly { id: Keeping; label: Sentence }[] = [
@@ -41,9 +42,9 @@ export function ModelDialog() {
           }}
         >
           <option value={recorded}>{t`Recorded answers, without a key`}</option>
-          {providers.map(({ id, title }) => (
-            <option key={id} value={id}>
-              {title}
+          {providers.map((one) => (
+            <option key={one.id} value={one.id}>
+              {titleOfProvider(one)}
             </option>
           ))}
         </select>
@@ -55,6 +56,7 @@ export function ModelDialog() {
       ) : (
         <ProviderFields key={provider.id} provider={provider} />
       )}
+      <LanguageField />
       <button type="button" class="button primary" onClick={() => (dialog.value = null)}>
         {t`Done`}
       </button>
@@ -136,7 +138,10 @@ function ProviderFields({ provider }: { provider: Provider }) {
       </label>
       <p class="quiet">{t`They are put to the vote: more cost more and err less. Five is a good number.`}</p>
       <SoFar />
-      <WhatIsSent host={URL.canParse(choice.base) ? new URL(choice.base).host : provider.title} sees={provider.sees} />
+      <WhatIsSent
+        host={URL.canParse(choice.base) ? new URL(choice.base).host : titleOfProvider(provider)}
+        sees={provider.sees}
+      />
       <details>
         <summary>{t`Prices and kept answers`}</summary>
         <p class="quiet">
@@ -287,5 +292,21 @@ function ForgetReplies() {
         {done.value ? t`Forgotten` : t`Forget them`}
       </button>
     </p>
+  );
+}
+
+/** Every language by its own name, so that it is found by whoever cannot read the page. */
+function LanguageField() {
+  return (
+    <label class="field">
+      <span>{t`Language of this page`}</span>
+      <select value={language.value} onChange={(event) => void changeLanguage(event.currentTarget.value as Language)}>
+        {Object.entries(languages).map(([id, name]) => (
+          <option key={id} value={id} lang={id}>
+            {name}
+          </option>
+        ))}
+      </select>
+    </label>
   );
 }

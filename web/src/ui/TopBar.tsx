@@ -14,6 +14,7 @@ import {
 } from './actions';
 import { exportScad } from './family_export';
 import { Icon } from './Icon';
+import { changeLanguage, otherLanguages } from './language';
 import { Menu, type MenuItem } from './Menu';
 import { startTour } from './Tour';
 import { isDark, toggleTheme } from './theme';
@@ -116,6 +117,7 @@ export function TopBar() {
           },
           { label: apart.value > 0 ? t`Parts together` : t`Parts apart`, hint: 'E', act: toggleApart },
           { label: isDark.value ? t`Light` : t`Dark`, act: toggleTheme },
+          ...otherLanguages().map(([id, name]) => ({ label: name, lang: id, act: () => void changeLanguage(id) })),
         ]}
       >
         <Icon name="help" />

@@ -1,6 +1,8 @@
 // Lives for one step. See carve/carve.ts; the page's end is session/carve.ts.
+import manifoldUrl from 'manifold-3d/manifold.wasm?url';
 import { type CarveFiles, carve } from '../carve/carve';
 import type { Carved, CarveStep } from '../carve/steps';
+import { loadManifold } from '../solid/manifold';
 import { holdWatchedLock } from './watch';
 
 holdWatchedLock();
@@ -14,7 +16,10 @@ export type CarveReply = Carved | { readonly error: string };
 
 self.onmessage = async ({ data }: MessageEvent<CarveRequest>) => {
   try {
-    const reply: CarveReply = await carve(data.files, data.step);
+    const reply: CarveReply = await carve(data.files, data.step, async () => {
+      const { triangulate } = await loadManifold(manifoldUrl);
+      return triangulate;
+    });
     self.postMessage(reply, { transfer: [reply.glb.buffer] });
   } catch (error) {
     self.postMessage({ error: error instanceof Error ? error.message : String(error) } satisfies CarveReply);
