@@ -1,7 +1,7 @@
 // Who can be asked: hosts, protocols and what each wants said differently. The page's Content-Security-Policy is made from
 // this list (web/csp.ts), so that a key can go to none but these hosts.
 
-import { m, type Sentence, t } from '../texts/texts';
+import { m, type Sentence, t } from '../texts/texts.ts';
 export type Protocol = 'openai' | 'anthropic' | 'gemini';
 
 export interface Provider {
