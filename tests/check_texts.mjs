@@ -51,6 +51,7 @@ const keyOf = (template) =>
 const isSentence = (node) =>
   /(\b[a-z’']+[,:;]? ){3}[a-z’']+/i.test(keyOfText(node)) &&
   !ts.isTaggedTemplateExpression(node.parent) &&
+  !(ts.isPropertyAssignment(node.parent) && node.parent.name === node) &&
   !(ts.isCallExpression(node.parent) && node.parent.expression.getText() === 'plural') &&
   !(ts.isJsxAttribute(node.parent) && !spoken.has(node.parent.name.getText()));
 

@@ -3,6 +3,7 @@
 import { type ReadonlySignal, type Signal, signal } from '@preact/signals';
 import { t } from '../texts/texts';
 import type { Progress } from '../worker/protocol';
+import { stepWords } from './core_steps';
 import { FileError } from './files';
 
 /** A sentence that stays until the next thing is done. */
@@ -49,7 +50,8 @@ export function createTasks(): Tasks {
         signal: controller.signal,
         onProgress({ step, done, total }) {
           if (!isCurrent()) return;
-          task.value = { ...own, text: total > 1 ? t`${text} · ${step}, ${done} of ${total}` : `${text} · ${step}` };
+          const now = `${text} · ${stepWords(step)}`;
+          task.value = { ...own, text: total > 1 ? t`${now}, ${done} of ${total}` : now };
         },
       });
     } catch (error) {

@@ -15,25 +15,20 @@ import { dialog, openAny } from './actions';
 import { Compass } from './Compass';
 import { Composer } from './Composer';
 import { CutCard, CutHandle } from './CutCard';
-import { Dialog } from './Dialog';
 import { Dimensions } from './Dimensions';
-import { ExploreDialog } from './ExploreDialog';
 import { FirstScreen } from './FirstScreen';
 import { isEmbedded } from './frame';
 import { Handles } from './Handles';
-import { HelpDialog, Licences } from './HelpDialog';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
-import { lazily } from './lazily';
-import { ModelDialog } from './ModelDialog';
+import { Licences } from './Licences';
+import { ExploreDialog, HelpDialog, ModelDialog, PrintDialog, ProgramDialog, ShareDialog } from './late_dialogs';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { PlaceOffer } from './PlaceCard';
-import { ProgramDialog } from './ProgramDialog';
 import { ReadingsDialog } from './ReadingsDialog';
 import { RightPanel } from './RightPanel';
 import { rich } from './rich';
-import { ShareDialog } from './ShareDialog';
 import { SplitOffer } from './SplitCard';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
@@ -43,19 +38,6 @@ import { TopBar } from './TopBar';
 import { Tour, TourOffer } from './Tour';
 import { welcome } from './welcome';
 import type { FeatureKind } from './words';
-
-const PrintDialog = lazily(
-  async () => (await import('./PrintDialog')).PrintDialog,
-  (line) => (
-    <Dialog title={t`For printing`} onClose={closeDialog}>
-      {line}
-    </Dialog>
-  ),
-);
-
-function closeDialog(): void {
-  dialog.value = null;
-}
 
 const phone = matchMedia('(max-width: 720px)');
 

@@ -6,6 +6,7 @@ import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import type { Estimate, TaskProgress } from '../llm/session';
 import { choiceOf, costOf, isDemo, settings } from '../llm/settings';
 import { models } from '../session/core';
+import { stepWords } from '../session/core_steps';
 import { nameOf } from '../session/document';
 import {
   cancelRequest,
@@ -196,7 +197,7 @@ function Asking({ tasks }: { tasks: readonly TaskProgress[] }) {
         <p class="quiet">
           {tasks
             .filter((task) => task.of > 0)
-            .map((task) => t`${task.words} ${task.done} of ${task.of}`)
+            .map((task) => t`${stepWords(task.words)} ${task.done} of ${task.of}`)
             .join(' · ')}
         </p>
       </div>

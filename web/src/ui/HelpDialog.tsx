@@ -2,6 +2,7 @@
 import { m, type Sentence, t } from '../texts/texts';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
+import { Licences } from './Licences';
 import { rich } from './rich';
 
 const keys: readonly (readonly [keys: string | Sentence, what: Sentence])[] = [
@@ -23,22 +24,6 @@ const keys: readonly (readonly [keys: string | Sentence, what: Sentence])[] = [
   [m`Arrows on a slider`, m`one step; with Shift ten, with Alt a tenth`],
   [m`Double-click on a slider`, m`back to the model as it was`],
 ];
-
-/** The build puts both files beside the page. */
-export function Licences() {
-  return (
-    <p>
-      {t`Free software, GPL 3 or later:`}{' '}
-      <a href="./licences.txt" target="_blank" rel="noopener">
-        {t`licences`}
-      </a>
-      ,{' '}
-      <a href="./source.tar.gz" download>
-        {t`source`}
-      </a>
-    </p>
-  );
-}
 
 export function HelpDialog() {
   return (
