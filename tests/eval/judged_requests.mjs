@@ -7,23 +7,34 @@
 // SET: harder   harder.json, on models of the gallery and of $PARSEL_DATA/furniture
 //      paper    $PARSEL_DATA/paper: part of the paper's own shapes and requests; nothing of it stands here but the replies,
 //               by the hash of their prompt
-// --json FILE writes what is printed. A request is met when all of its predicates hold (predicates.mjs) with the first
-// slider at 0.2, or at its end when that comes first; numbers of instances are counted at the end, as a count takes whole
-// steps. Variants: all replies voted; the first alone; the voted seed without
-// hints and validity; and, where the folder has it, somebody else's reading (edits.json), which tells a wrong reading from
-// a wrong search. replies/SET.json: {model, date, replies: {hash: [text]}}. Needs the WebAssembly build.
-import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
-import { fileURLToPath } from 'node:url';
+// --json FILE writes what is printed, with the programs (paper/report.mjs and study/make.mjs draw them). --only 3,10: these
+// requests alone.
+//
+// A request is met when all of its predicates hold (predicates.mjs). Where the slider stands was written down with the
+// predicates: at 0.2 (harder), or where the part that is edited has moved by 0.2 half-diagonals, for turns by 0.2 (paper);
+// at its end when that comes first. Numbers of instances are counted at the end, as a count takes whole steps.
+// Kept relations are seen on the meshes (kept_relations.mjs) there; an edit is clean when none is lost there and at the end
+// of what the search looks at, 0.35, however much farther the slider goes.
+// Variants: all replies voted; the first alone; the first, with one question about all relations of a kind ("few calls",
+// batched.mjs; cost.mjs says what each costs); the voted seed without hints and validity; the whole program by the language
+// model at one go; and, where the folder has it, somebody else's reading (edits.json). Of what is not met it is said whether
+// the reading contradicts what was expected (paper/blame.mjs); if not, the search is at fault.
+// replies/SET.json: {model, date, replies: {hash: [text]}}. Needs the WebAssembly build.
+import { writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { loadCore } from '../../web/tools/core.mjs';
+import { separated } from './batched.mjs';
+import { keepReplies, missing, readReplies, renderSet, sets, writeMissing } from './judged_set.mjs';
+import { keptRelations } from './kept_relations.mjs';
+import { blame } from './paper/blame.mjs';
+import { searched } from './paper/frames.mjs';
+import { sliderAt } from './paper/slider.mjs';
 import { judge, readNodes } from './predicates.mjs';
 
-const folder = dirname(fileURLToPath(import.meta.url));
 const text = { type: 'string' };
 const { values, positionals } = parseArgs({
   allowPositionals: true,
-  options: { write: text, read: text, model: text, json: text, votes: { type: 'string', default: '3' } },
+  options: { write: text, read: text, model: text, json: text, only: text, votes: { type: 'string', default: '3' } },
 });
 const [set] = positionals;
 const votes = Number(values.votes);
@@ -31,188 +42,189 @@ function die(line) {
   process.stderr.write(`${line}\n`);
   process.exit(2);
 }
-if (set !== 'harder' && set !== 'paper') die('Which set: harder or paper?');
+if (!sets.includes(set)) die('Which set: harder or paper?');
 if (!(votes >= 1 && votes <= 9)) die('--votes takes 1 to 9.');
 if (values.read && !values.model) die('--model NAME says who answered.');
-
-const data = process.env.PARSEL_DATA || null;
-const core = await loadCore();
-const gallery = core('gallery', {});
-
-/** The file of a model, or null where it is not to be had. */
-function fileOf(model) {
-  const index = gallery.result.models.findIndex(({ id }) => id === model);
-  if (set === 'harder' && index >= 0) return gallery.buffers[index];
-  const file = data && join(data, set === 'paper' ? 'paper' : 'furniture', `${model}.glb`);
-  return file && existsSync(file) ? readFileSync(file) : null;
-}
-
-function readPairs() {
-  if (set === 'harder') return { pairs: JSON.parse(readFileSync(join(folder, 'harder.json'), 'utf8')), edits: {} };
-  const file = data && join(data, 'paper', 'pairs.json');
-  if (!file || !existsSync(file)) {
-    process.stdout.write('PARSEL_DATA has no paper/pairs.json: nothing is measured.\n');
-    process.exit(0);
-  }
-  const { pairs } = JSON.parse(readFileSync(file, 'utf8'));
-  const edits = join(data, 'paper', 'edits.json');
-  return {
-    pairs: pairs.map(({ model, request, assertions }) => {
-      // Some of what a person expects is beyond these predicates, and says so.
-      const predicates = assertions.flatMap((one) => one.predicates).filter(({ testable }) => testable !== false);
-      return { model, request, predicates };
-    }),
-    edits: existsSync(edits) ? JSON.parse(readFileSync(edits, 'utf8')) : {},
-  };
-}
-
-const repliesFile = join(folder, 'replies', `${set}.json`);
-const kept = existsSync(repliesFile)
-  ? JSON.parse(readFileSync(repliesFile, 'utf8'))
-  : { model: null, date: null, replies: {} };
-const repliesTo = ({ hash }) => (kept.replies[hash] ?? []).filter(Boolean);
-
-/** The edited file with the first slider at 0.2 and at its end; null when there is no program. */
-function edited(edit) {
-  if (edit === null) return null;
-  try {
-    const { program } = core('propagate', { edit }).result;
-    const { max } = program.layers[0].parameter;
-    const [glb, atEnd] = [Math.min(0.2, max), max].map((value) => {
-      const at = program.layers.map((_, i) => (i === 0 ? value : 0));
-      return core('apply', { program, values: at }).buffers[0];
-    });
-    const reports = program.layers.flatMap(({ relations }) => relations);
-    const held = reports.filter(({ status }) => status === 'held').length;
-    const asked = reports.filter(({ status }) => status !== 'disabled').length;
-    return { glb, atEnd, held, asked };
-  } catch (error) {
-    return { refused: error.message };
-  }
-}
-
-async function verdict(edit, predicates, rest) {
-  const result = edited(edit);
-  if (result === null) return { good: 0, of: predicates.length, why: 'read as unclear, or not at all' };
-  if (result.refused) return { good: 0, of: predicates.length, why: result.refused };
-  const [now, end] = [await readNodes(result.glb), await readNodes(result.atEnd)];
-  const counts = (predicate) => (predicate.any_of?.flat() ?? [predicate]).some((one) => 'group' in one);
-  const judged = predicates.map((predicate) => {
-    return { predicate, ...judge(predicate, rest, counts(predicate) ? end : now) };
-  });
-  const wrong = judged.filter(({ ok }) => !ok);
-  return {
-    good: judged.length - wrong.length,
-    of: judged.length,
-    held: result.held,
-    asked: result.asked,
-    why: wrong.map(({ predicate, why }) => `${JSON.stringify(predicate)} ${why}`).join('; '),
-  };
-}
-
-const { pairs, edits } = readPairs();
-const rendered = [];
-for (const [index, pair] of pairs.entries()) {
-  const file = fileOf(pair.model);
-  if (file === null) {
-    process.stdout.write(`${pair.model}: the model is not there, skipped\n`);
-    continue;
-  }
-  core('open', { name: pair.model, external: [] }, [file]);
-  const { prompts } = core('prompts', { request: pair.request, mentioned: pair.mentioned ?? [] }).result;
-  rendered.push({ ...pair, index, file, prompts });
-}
-
-if (values.write || values.read) {
-  const prompts = new Map(rendered.flatMap((pair) => pair.prompts.map((prompt) => [prompt.hash, prompt])));
-  if (values.write) {
-    mkdirSync(values.write, { recursive: true });
-    for (const { hash, relation, text: prompt } of prompts.values()) {
-      for (let vote = 0; vote < votes; ++vote) {
-        // Which symmetries may go is asked once, as there are many of them.
-        if (vote > 0 && relation !== null) continue;
-        if (!kept.replies[hash]?.[vote]) writeFileSync(join(values.write, `${hash}.${vote}.prompt.md`), prompt);
-      }
-    }
-  } else {
-    // Replies of two models would not be votes on the same thing.
-    const replies = kept.model === values.model ? kept.replies : {};
-    for (const file of readdirSync(values.read)) {
-      const [, hash, vote] = /^([0-9a-f]{64})\.(\d)\.reply\.md$/.exec(file) ?? [];
-      if (!prompts.has(hash)) continue;
-      replies[hash] ??= [];
-      replies[hash][Number(vote)] = readFileSync(join(values.read, file), 'utf8');
-    }
-    const known = Object.fromEntries(Object.entries(replies).filter(([hash]) => prompts.has(hash)));
-    const date = new Date().toISOString().slice(0, 10);
-    writeFileSync(repliesFile, `${JSON.stringify({ model: values.model, date, replies: known }, null, 1)}\n`);
-  }
-  process.stdout.write(`${prompts.size} prompts of ${rendered.length} requests\n`);
+if (missing(set)) {
+  process.stdout.write(`${missing(set)}\n`);
   process.exit(0);
 }
 
-const names = ['voted', 'one reply', 'seed only', 'other reading'];
-const rows = [];
-for (const { index, model, request, predicates, unclear = false, file, prompts } of rendered) {
-  core('open', { name: model, external: [] }, [file]);
-  const rest = await readNodes(file);
-  const infer = (count) => {
-    const replies = prompts.map((prompt) => ({ ...prompt, texts: repliesTo(prompt).slice(0, count) }));
-    return replies.some(({ texts }) => texts.length === 0) ? null : core('read_replies', { request, replies }).result;
+const core = await loadCore();
+const rendered = renderSet(core, set, values.only ? values.only.split(',').map(Number) : []);
+if (values.write) {
+  const count = writeMissing(set, rendered, values.write, votes);
+  process.stdout.write(`${count} prompts of ${rendered.length} requests have no reply\n`);
+  process.exit(0);
+}
+if (values.read) {
+  const count = keepReplies(set, rendered, values.read, values.model);
+  process.stdout.write(`${count} prompts of ${rendered.length} requests have replies\n`);
+  process.exit(0);
+}
+
+const { replies } = readReplies(set);
+const repliesTo = ({ hash }) => (replies[hash] ?? []).filter(Boolean);
+
+/** A program of one layer that does what the statements say, and nothing else. */
+const programOf = ({ name, sha256 }, statements) => ({
+  format: 'parsel/program',
+  version: 1,
+  shape: { name, sha256 },
+  layers: [
+    { request: 'one go', parameter: { name: 'x', min: -searched, max: searched, value: 0 }, statements, relations: [] },
+  ],
+});
+
+/** {program} or {refused: why}; the same edit is propagated once. */
+function propagated(edit, known) {
+  const key = JSON.stringify(edit);
+  if (!known.has(key)) {
+    try {
+      known.set(key, { program: core('propagate', { edit }).result.program });
+    } catch (error) {
+      known.set(key, { refused: error.message });
+    }
+  }
+  return known.get(key);
+}
+
+/** Every prompt with its first `count` replies; null when one has none. */
+function given(prompts, count) {
+  const list = prompts.map((prompt) => ({ ...prompt, texts: repliesTo(prompt).slice(0, count) }));
+  return list.some(({ texts }) => texts.length === 0) ? null : list;
+}
+
+/** One reply to everything, all relations of a kind asked about in one; null when a reply is missing or cannot be read. */
+function inOneCall({ prompts, batched }) {
+  const whole = given(
+    prompts.filter(({ relation }) => relation === null),
+    1,
+  );
+  const answers = batched.map((prompt) => repliesTo(prompt)[0] && separated(prompt, repliesTo(prompt)[0]));
+  if (whole === null || answers.some((answer) => !answer)) return null;
+  const single = new Map(answers.flatMap((answer) => [...answer]));
+  return prompts.map((prompt) => ({
+    ...prompt,
+    texts: prompt.relation === null ? repliesTo(prompt).slice(0, 1) : [single.get(prompt.relation)],
+  }));
+}
+
+const counts = (predicate) => (predicate.any_of?.flat() ?? [predicate]).some((one) => 'group' in one);
+
+/** @param made {program} or {refused}; null when nothing was understood */
+async function verdict(made, { predicates, shape, rest }, seed, givenUp) {
+  const nothing = (why) => ({ good: 0, of: predicates.length, kept: 0, asked: 0, clean: false, why, program: null });
+  if (made === null) return nothing('read as unclear, or not at all');
+  if (made.refused) return nothing(made.refused);
+  const { program } = made;
+  const { max } = program.layers[0].parameter;
+  const at = async (value) => {
+    const rows = program.layers.map((_, i) => (i === 0 ? value : 0));
+    return readNodes(core('apply', { program, values: rows }).buffers[0]);
   };
-  const [voted, one] = [infer(9), infer(1)];
-  const row = { index, model, request };
+  let slider;
+  let now;
+  let far;
+  let end;
+  try {
+    slider = set === 'paper' ? await sliderAt(shape, rest, seed, max, at) : Math.min(0.2, max);
+    [now, far, end] = [await at(slider), await at(Math.max(slider, Math.min(searched, max))), await at(max)];
+  } catch (error) {
+    return nothing(error.message); // the gate refuses what a language model wrote
+  }
+  const judged = predicates.map((one) => ({ predicate: one, ...judge(one, rest, counts(one) ? end : now) }));
+  const wrong = judged.filter(({ ok }) => !ok);
+  const [there, farther] = [now, far].map((nodes) => keptRelations(shape, rest, nodes, givenUp));
+  return {
+    good: judged.length - wrong.length,
+    of: judged.length,
+    kept: there.kept,
+    asked: there.of,
+    lost: there.lost,
+    clean: there.lost.length === 0 && farther.lost.length === 0,
+    why: wrong.map(({ predicate, why }) => `${JSON.stringify(predicate)} ${why}`).join('; '),
+    slider,
+    program,
+  };
+}
+
+const names = ['one go', 'seed only', 'one reply', 'few calls', 'voted', 'other reading'];
+const rows = [];
+for (const pair of rendered) {
+  const { index, model, request, unclear, reading, file, shape, prompts, oneShot } = pair;
+  core('open', { name: model, external: [] }, [file]);
+  pair.rest = await readNodes(file);
+  const infer = (list) => list && core('read_replies', { request, replies: list }).result;
+  const [voted, one, whole] = [infer(given(prompts, 9)), infer(given(prompts, 1)), infer(given([oneShot], 1))];
+  const few = infer(inOneCall(pair));
+  const row = { index, model, request, ...(pair.kind && { kind: pair.kind }) };
   if (unclear) {
     // What cannot be done, or could mean anything, must be asked back.
     for (const [name, inference] of [
-      ['voted', voted],
+      ['one go', whole],
       ['one reply', one],
+      ['few calls', few],
+      ['voted', voted],
     ]) {
       if (inference === null) continue;
       const asked = inference.seed.outcome === 'unclear' || inference.edit === null;
-      row[name] = { good: asked ? 1 : 0, of: 1, why: asked ? '' : 'taken as if it were clear' };
+      row[name] = { good: asked ? 1 : 0, of: 1, unclear, why: asked ? '' : 'taken as if it were clear' };
     }
   } else {
-    if (voted) {
-      row.voted = await verdict(voted.edit, predicates, rest);
-      row['seed only'] = await verdict(voted.edit && { ...voted.edit, hints: {}, disabled: [] }, predicates, rest);
+    const known = new Map();
+    const seed = (voted?.edit ?? reading)?.seed ?? [];
+    const givenUp = (voted?.edit ?? reading)?.disabled ?? [];
+    const measure = async (name, edit) => {
+      row[name] = await verdict(edit && propagated(edit, known), pair, seed, givenUp);
+    };
+    if (whole) {
+      const made = whole.edit && { program: programOf(shape, whole.edit.seed) };
+      row['one go'] = await verdict(made, pair, seed, givenUp);
     }
-    if (one) row['one reply'] = await verdict(one.edit, predicates, rest);
-    if (edits[index]) row['other reading'] = await verdict(edits[index], predicates, rest);
+    if (voted) {
+      await measure('seed only', voted.edit && { ...voted.edit, hints: {}, disabled: [] });
+      await measure('voted', voted.edit);
+    }
+    if (one) await measure('one reply', one.edit);
+    if (few) await measure('few calls', few.edit);
+    if (reading) await measure('other reading', reading);
+    if (voted && row.voted.good < row.voted.of) row.blame = blame(pair, voted.edit);
   }
   rows.push(row);
   const cells = names.filter((name) => row[name]).map((name) => `${name} ${row[name].good}/${row[name].of}`);
   process.stdout.write(`${index} ${model}: ${request}\n    ${cells.join('  ') || 'no replies'}\n`);
   const shown = row.voted ?? row['other reading'];
-  if (shown?.why) process.stdout.write(`    ${shown.why}\n`);
+  if (shown?.why) process.stdout.write(`    ${row.blame ? `${row.blame}: ` : ''}${shown.why}\n`);
 }
 
+const share = (a, b) => Number((b === 0 ? 1 : a / b).toFixed(3));
 const summary = Object.fromEntries(
   names.flatMap((name) => {
     const all = rows.map((row) => row[name]).filter(Boolean);
     if (all.length === 0) return [];
-    const sum = (of) => all.reduce((total, one) => total + (of(one) ?? 0), 0);
+    const edits = all.filter((one) => !one.unclear);
+    const sum = (list, of) => list.reduce((total, one) => total + (of(one) ?? 0), 0);
     const met = all.filter(({ good, of }) => good === of).length;
-    const share = (a, b) => Number((b === 0 ? 1 : a / b).toFixed(3));
-    return [
-      [
-        name,
-        {
-          requests: all.length,
-          met,
-          'met, share': share(met, all.length),
-          predicates: share(
-            sum(({ good }) => good),
-            sum(({ of }) => of),
-          ),
-          'relations held': share(
-            sum(({ held }) => held),
-            sum(({ asked }) => asked),
-          ),
-        },
-      ],
-    ];
+    const figures = {
+      requests: all.length,
+      met,
+      'met, share': share(met, all.length),
+      predicates: share(
+        sum(all, ({ good }) => good),
+        sum(all, ({ of }) => of),
+      ),
+      'relations kept': share(
+        sum(edits, ({ kept }) => kept),
+        sum(edits, ({ asked }) => asked),
+      ),
+      'clean edits': share(edits.filter(({ clean }) => clean).length, edits.length),
+    };
+    return [[name, figures]];
   }),
 );
 console.table(summary);
-if (values.json) writeFileSync(values.json, `${JSON.stringify({ summary, rows }, null, 1)}\n`);
+const blamed = rows.filter(({ blame: why }) => why).map(({ blame: why }) => why.split(' ')[0]);
+for (const why of new Set(blamed))
+  process.stdout.write(`${why} at fault: ${blamed.filter((x) => x === why).length} of ${blamed.length} not met\n`);
+if (values.json) writeFileSync(values.json, `${JSON.stringify({ set, summary, rows }, null, 1)}\n`);

@@ -22,9 +22,10 @@ const { ALL_EXTENSIONS } = await import(pathToFileURL(inWeb.resolve('@gltf-trans
 
 const sides = { left: [0, 1], right: [0, -1], top: [1, 1], bottom: [1, -1], front: [2, 1], back: [2, -1] };
 /** Less than this is no change, and more than the first no touching; the paper's delta is 0.0433. */
-const smallest = { change: 0.01, rest: 0.005, gap: 0.02, mirror: 0.015 };
+export const smallest = { change: 0.01, rest: 0.005, gap: 0.02, mirror: 0.015 };
 
-/** @returns Map of "node:<index>" → {name, points: [[x, y, z]]}, of all nodes with a mesh, in the world's frame */
+/** @returns Map of "node:<index>" → {name, points: [[x, y, z]], triangles: [i, j, k, …]}, of all nodes with a mesh, in the
+ * world's frame */
 export async function readNodes(glb) {
   const document = await new NodeIO().registerExtensions(ALL_EXTENSIONS).readBinary(new Uint8Array(glb));
   const found = new Map();
@@ -37,14 +38,17 @@ export async function readNodes(glb) {
     if (!shown.has(node)) continue; // an instance that a count took away
     const m = node.getWorldMatrix();
     const points = [];
+    const triangles = [];
     for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
       const positions = primitive.getAttribute('POSITION');
+      const indices = primitive.getIndices()?.getArray() ?? Array.from({ length: positions.getCount() }, (_, i) => i);
+      for (const i of indices) triangles.push(points.length + i);
       for (let i = 0; i < positions.getCount(); ++i) {
         const [x, y, z] = positions.getElement(i, []);
         points.push([0, 1, 2].map((k) => m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k]));
       }
     }
-    if (points.length > 0) found.set(`node:${index}`, { name: node.getName(), points });
+    if (points.length > 0) found.set(`node:${index}`, { name: node.getName(), points, triangles });
   }
   return found;
 }
@@ -84,7 +88,7 @@ function measured(rest, now, measure) {
 }
 
 /** Distance of two convex hulls: Gilbert's algorithm on the difference of the two (SIAM J. Control 4, 1966). */
-function gap(a, b) {
+export function gap(a, b) {
   const support = (points, d) => {
     let best = points[0];
     let reach = -Infinity;

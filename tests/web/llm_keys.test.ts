@@ -69,10 +69,23 @@ describe('a key', () => {
 });
 
 describe('the settings', () => {
+  it('ask once where a model on this machine answers, as often as was measured elsewhere, or as often as was chosen', async () => {
+    const { settings, choose, votesFor, measuredVotes } = await import('../../web/src/llm/settings');
+    choose('openai', {});
+    expect((['request', 'names', 'kinds'] as const).map(votesFor)).toEqual(Object.values(measuredVotes));
+    choose('ollama', {});
+    expect((['request', 'names', 'kinds'] as const).map(votesFor)).toEqual([1, 1, 1]);
+    settings.value = { ...settings.value, votes: 4 };
+    expect(votesFor('kinds')).toBe(4);
+    localStorage.setItem('parsel-model', JSON.stringify(settings.value));
+    vi.resetModules();
+    expect((await import('../../web/src/llm/settings')).votesFor('request')).toBe(4);
+  });
+
   it('never hold a key, and survive nonsense in the storage', async () => {
     localStorage.setItem('parsel-model', '{"provider":"evil","votes":99,"choices":{"openai":{"model":7}}}');
     const { settings, choose, currentTarget, costOf } = await import('../../web/src/llm/settings');
-    expect(settings.value).toMatchObject({ provider: 'recorded', votes: 5, choices: { openai: { model: '' } } });
+    expect(settings.value).toMatchObject({ provider: 'recorded', votes: null, choices: { openai: { model: '' } } });
     choose('openai', { base, model: 'm' });
     expect(currentTarget).toThrow(/wants a key/);
     keys.keepKey(base, 'sk-1', 'memory');

@@ -131,11 +131,17 @@ export const allowedOrigins: readonly string[] = [
   'http://127.0.0.1:*',
 ];
 
+/** Whether a model on the present machine answers there. */
+export function isLocal(address: string): boolean {
+  if (!URL.canParse(address)) return false;
+  const { protocol, hostname } = new URL(address);
+  return protocol === 'http:' && ['localhost', '127.0.0.1'].includes(hostname);
+}
+
 /** Whether the page may send to this address. */
 export function isAllowed(address: string): boolean {
   if (!URL.canParse(address)) return false;
   const url = new URL(address);
   if (url.username !== '' || url.password !== '') return false;
-  const local = url.protocol === 'http:' && ['localhost', '127.0.0.1'].includes(url.hostname);
-  return local || allowedOrigins.includes(url.origin);
+  return isLocal(address) || allowedOrigins.includes(url.origin);
 }

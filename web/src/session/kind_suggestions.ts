@@ -4,7 +4,7 @@
 import { AskError } from '../llm/ask_error';
 import { browserCache } from '../llm/cache';
 import { loadRecordings } from '../llm/recordings';
-import { currentTarget, isDemo, settings } from '../llm/settings';
+import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource, type Source } from '../llm/source';
 import { t } from '../texts/texts';
 import { models } from './core';
@@ -14,7 +14,7 @@ import { session } from './session';
 
 /** @throws AskError that says why nobody can be asked */
 async function sourceOf({ source }: OpenModel): Promise<Source> {
-  if (!isDemo.peek()) return liveSource(currentTarget(), { cache: browserCache, votes: settings.peek().votes });
+  if (!isDemo.peek()) return liveSource(currentTarget(), { cache: browserCache, votes: votesFor('kinds') });
   const recordings = source.kind === 'gallery' ? await loadRecordings(source.id) : null;
   if (recordings === null)
     throw new AskError(

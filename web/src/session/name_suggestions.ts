@@ -1,5 +1,5 @@
 // Whom the page asks for names of parts: as for suggestions, as often as the settings say.
-import { settings } from '../llm/settings';
+import { votesFor } from '../llm/settings';
 import { models } from './core';
 import { createNaming } from './naming';
 import { relabelAll } from './open';
@@ -9,6 +9,6 @@ import { askerOf } from './suggestions';
 export const names = createNaming({
   session,
   models,
-  askerOf: (model) => askerOf(model, settings.peek().votes),
+  askerOf: (model) => askerOf(model, votesFor('names')),
   relabel: relabelAll,
 });

@@ -4,7 +4,7 @@
 import { AskError } from '../llm/ask_error';
 import { browserCache } from '../llm/cache';
 import { findRecorded, loadRecordings } from '../llm/recordings';
-import { currentTarget, isDemo, settings } from '../llm/settings';
+import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
 import { t } from '../texts/texts';
 import { models } from './core';
@@ -28,7 +28,7 @@ async function questionOf(
   afresh: boolean,
 ): Promise<Question> {
   if (!isDemo.peek()) {
-    const source = liveSource(currentTarget(), { votes: settings.peek().votes, cache: browserCache, afresh });
+    const source = liveSource(currentTarget(), { votes: votesFor('request'), cache: browserCache, afresh });
     return { request: told, title: typed, mentioned: parts, source };
   }
   if (model.labels.size > 0)
@@ -90,7 +90,7 @@ export const {
   models,
   questionOf,
   seen,
-  votes: () => (isDemo.peek() ? null : settings.peek().votes),
+  votes: () => (isDemo.peek() ? null : votesFor('request')),
   play: playOnce,
   aim: aimAt,
 });

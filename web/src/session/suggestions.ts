@@ -3,7 +3,7 @@
 import { AskError } from '../llm/ask_error';
 import { browserCache } from '../llm/cache';
 import { loadRecordings } from '../llm/recordings';
-import { currentTarget, isDemo, settings } from '../llm/settings';
+import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
 import { t } from '../texts/texts';
 import { models } from './core';
@@ -28,7 +28,7 @@ export async function askerOf(model: OpenModel, votes = 1): Promise<Asker> {
   const name = `${target.base} ${target.model}`;
   const options = { cache: browserCache };
   return {
-    reader: liveSource(target, { ...options, votes: Math.min(settings.peek().votes, mostVotes) }),
+    reader: liveSource(target, { ...options, votes: Math.min(votesFor('request'), mostVotes) }),
     proposer(_, picture) {
       if (picture === null) return liveSource(target, { ...options, votes });
       const drawn = target.provider.sees && !blind.has(name) ? picture() : null;

@@ -6,8 +6,18 @@ import { clearReplies } from '../llm/cache';
 import { defaultModel, lookedUp } from '../llm/default_models';
 import { complete, listModels } from '../llm/http';
 import { forgetKey, type Keeping, keepKey, keyFor } from '../llm/keys';
-import { isAllowed, type Provider, providerOf, providers, titleOfProvider } from '../llm/providers';
-import { choiceOf, choose, currentTarget, enteredOf, isDemo, maxVotes, recorded, settings } from '../llm/settings';
+import { isAllowed, isLocal, type Provider, providerOf, providers, titleOfProvider } from '../llm/providers';
+import {
+  choiceOf,
+  choose,
+  currentTarget,
+  enteredOf,
+  isDemo,
+  maxVotes,
+  measuredVotes,
+  recorded,
+  settings,
+} from '../llm/settings';
 import { sentence } from '../session/tasks';
 import { type Language, language, languages, m, number, plural, type Sentence, t } from '../texts/texts';
 import { dialog } from './actions';
@@ -72,6 +82,7 @@ function ProviderFields({ provider }: { provider: Provider }) {
   const modelHint = useId();
   const change = (next: Parameters<typeof choose>[1]) => choose(provider.id, next);
   const allowed = isAllowed(choice.base);
+  const local = isLocal(choice.base);
   return (
     <>
       {provider.pitfalls.length > 0 && (
@@ -128,15 +139,21 @@ function ProviderFields({ provider }: { provider: Provider }) {
           type="number"
           min={1}
           max={maxVotes}
-          value={settings.value.votes}
+          value={settings.value.votes ?? ''}
+          placeholder={local ? '1' : t`${measuredVotes.request} to ${measuredVotes.kinds}`}
           onChange={(event) => {
-            const votes = Math.round(Math.min(maxVotes, Math.max(1, event.currentTarget.valueAsNumber || 1)));
+            const typed = event.currentTarget.valueAsNumber;
+            const votes = Number.isNaN(typed) ? null : Math.round(Math.min(maxVotes, Math.max(1, typed)));
             settings.value = { ...settings.peek(), votes };
-            event.currentTarget.value = String(votes);
+            event.currentTarget.value = String(votes ?? '');
           }}
         />
       </label>
-      <p class="quiet">{t`They are put to the vote: more cost more and err less. Five is a good number.`}</p>
+      <p class="quiet">
+        {local
+          ? t`More than one are put to the vote, and cost as much more. Left empty: one, as this machine is slow.`
+          : t`More than one are put to the vote, and cost as much more. Left empty: ${measuredVotes.request} for a request, ${measuredVotes.names} for names of parts, ${measuredVotes.kinds} for kinds of a thing; more were not measured to help.`}
+      </p>
       <SoFar />
       <WhatIsSent
         host={URL.canParse(choice.base) ? new URL(choice.base).host : titleOfProvider(provider)}
