@@ -22,11 +22,18 @@ import { Handles } from './Handles';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
 import { Licences } from './Licences';
-import { ExploreDialog, HelpDialog, ModelDialog, PrintDialog, ProgramDialog, ShareDialog } from './late_dialogs';
+import {
+  ExploreDialog,
+  HelpDialog,
+  ModelDialog,
+  PrintDialog,
+  ProgramDialog,
+  ReadingsDialog,
+  ShareDialog,
+} from './late_dialogs';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { PlaceOffer } from './PlaceCard';
-import { ReadingsDialog } from './ReadingsDialog';
 import { RightPanel } from './RightPanel';
 import { rich } from './rich';
 import { SplitOffer } from './SplitCard';

@@ -16,7 +16,7 @@ import { ChangeCard, OtherCount } from './ChangeCard';
 import { folded } from './folds';
 import { Icon } from './Icon';
 import { Menu } from './Menu';
-import { showReadings } from './ReadingsDialog';
+import { showReadings } from './readings';
 import { ValueSlider } from './ValueSlider';
 import { brokenWords, inWords, whyNothingElse } from './why';
 import { capital, groupMembers, keptWords, relationWords, sideName, statementWords, whyWords } from './words';

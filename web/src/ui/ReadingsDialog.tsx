@@ -1,15 +1,14 @@
 // Other readings of a layer's request, side by side: one slider drives them all, the parts that do something else than in
 // the layer as it is are tinted, and choosing one puts it in the layer's place.
 
-import { signal, useSignal } from '@preact/signals';
+import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { Layer, Shape, Statement } from '../program/types';
 import type { State } from '../scene/explode';
 import type { Tint } from '../scene/model_view';
 import { copyOf, type Picture } from '../scene/pictures';
-import { type LayerEntry, type OpenModel, partNames } from '../session/document';
+import type { LayerEntry, OpenModel } from '../session/document';
 import { titleOf } from '../session/layers';
-import { saidFrom } from '../session/looking';
 import { playOnce, prefersReducedMotion } from '../session/play';
 import { isClean, type Proposal } from '../session/proposals';
 import { document, exchangeLayer } from '../session/session';
@@ -18,26 +17,17 @@ import { t } from '../texts/texts';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
 import { Icon } from './Icon';
-import { evaluatorOf, paint, paintNumbered } from './pictures';
+import { evaluatorOf, paint } from './pictures';
+import { readingsOf } from './readings';
 import { faultWords } from './SuggestCard';
 import { theme } from './theme';
-
-/** Key of the layer that the dialog is about. */
-const about = signal<number | null>(null);
-
-export function showReadings({ key, layer, seen }: LayerEntry): void {
-  about.value = key;
-  dialog.value = 'readings';
-  const request = saidFrom(layer.request, seen ?? null, partNames(document.peek())).own;
-  void otherReadings.start({ task: 'request_variations', request }, paintNumbered);
-}
 
 /** Share of the way to the ends: −1 … 1. */
 const at = ({ min, max }: Layer['parameter'], share: number) => (share < 0 ? -share * min : share * max);
 
 export function ReadingsDialog() {
   const asked = otherReadings.asked.value;
-  const entry = document.value.layers.find(({ key }) => key === about.value);
+  const entry = document.value.layers.find(({ key }) => key === readingsOf.value);
   const { model } = document.value;
   const share = useSignal(1);
   const isPlaying = useSignal(!prefersReducedMotion());

@@ -21,4 +21,5 @@ export const HelpDialog = late(m`Keyboard and help`, async () => (await import('
 export const ModelDialog = late(m`Language model`, async () => (await import('./ModelDialog')).ModelDialog);
 export const PrintDialog = late(m`For printing`, async () => (await import('./PrintDialog')).PrintDialog);
 export const ProgramDialog = late(m`Program`, async () => (await import('./ProgramDialog')).ProgramDialog);
+export const ReadingsDialog = late(m`Other readings`, async () => (await import('./ReadingsDialog')).ReadingsDialog);
 export const ShareDialog = late(m`Share`, async () => (await import('./ShareDialog')).ShareDialog);
