@@ -70,7 +70,9 @@ describe('German', () => {
   });
 
   it('writes numbers as German does, and reads them', async () => {
-    const { page, complaints } = await openModel(site.browser, site.url, stool, german);
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
+    await page.getByRole('button', { name: 'View and help' }).click();
+    await page.getByRole('menuitem', { name: 'Deutsch' }).click();
     await page.locator('.dimensions select').selectOption('m');
     const width = page.getByLabel('Breite, Länge eingeben');
     await expect.poll(() => width.inputValue()).toBe('0,5');
