@@ -148,7 +148,9 @@ if (argv[1] === fileURLToPath(import.meta.url)) {
       readdirSync(join(src, room), { recursive: true, encoding: 'utf8' }).map((file) => join(room, file)),
     )
     .filter((file) => /\.tsx?$/.test(file));
-  const said = ['main.tsx', 'texts/texts.ts', ...files].map((file) => saidIn(file, readFileSync(join(src, file), 'utf8')));
+  const said = ['main.tsx', 'texts/texts.ts', ...files].map((file) =>
+    saidIn(file, readFileSync(join(src, file), 'utf8')),
+  );
   const keys = new Map(said.flatMap((one) => [...one.keys]));
   const faults = said.flatMap((one) => one.faults.map((fault) => `web/src/${fault}`));
   for (const file of readdirSync(join(src, 'texts')).filter((name) => name.endsWith('.json'))) {

@@ -152,7 +152,7 @@ function ProviderFields({ provider }: { provider: Provider }) {
       <p class="quiet">
         {local
           ? t`More than one are put to the vote, and cost as much more. Left empty: one, as this machine is slow.`
-          : t`More than one are put to the vote, and cost as much more. Left empty: ${measuredVotes.request} for a request, ${measuredVotes.names} for names of parts, ${measuredVotes.kinds} for kinds of a thing; more were not measured to help.`}
+          : t`More than one are put to the vote, and cost as much more. Left empty: ${measuredVotes.request} for a request, ${measuredVotes.names} for names of parts, ${measuredVotes.kinds} for kinds of a thing, as they were measured.`}
       </p>
       <SoFar />
       <WhatIsSent
