@@ -9,6 +9,7 @@
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <new>
@@ -45,8 +46,9 @@ val reply(const json& message, const std::vector<std::string>& buffers) {
 
 parsel::Result<parsel::wasm::Output> run(const std::string& name, const std::string& parameters, const val& buffers,
                                          const val& progress) {
-  const parsel::wasm::Method* method = parsel::wasm::find_method(name);
-  if (method == nullptr) {
+  const auto methods = parsel::wasm::methods();
+  const auto method = std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
+  if (method == methods.end()) {
     return parsel::Error{"wasm", name, "the core has no such method", "reload the page: it is older than the core"};
   }
   parsel::wasm::Input input;

@@ -1,6 +1,6 @@
-#include "wasm/cad_methods.h"
-
+// What the page can ask about CAD programs and their families. No state: every call brings its program.
 #include <algorithm>
+#include <array>
 
 #include "core/base/sha256.h"
 #include "core/cad/cad_mesh.h"
@@ -12,6 +12,7 @@
 #include "core/infer/cad_task.h"
 #include "core/infer/prompt.h"
 #include "core/infer/variation_reply.h"
+#include "wasm/methods.h"
 
 namespace parsel::wasm {
 
@@ -73,8 +74,8 @@ cad::Model shown_model(const Family& family, std::size_t variation) {
   return model;
 }
 
-}  // namespace
-
+/// name; buffers = the OpenSCAD text. Answers {cad: parsel/cad, warnings: [text], parts: [{id, name, stem}]} and the
+/// GLB.
 Result<Output> open_cad(const Input& input) {
   const json name = input.parameters.value("name", json());
   if (!name.is_string() || input.buffers.size() != 1) return not_as_agreed("name", "a text, and one file with it");
@@ -91,6 +92,9 @@ Result<Output> open_cad(const Input& input) {
                 {cad::to_glb(*model)}};
 }
 
+/// cad: parsel/cad; variations: parsel/variations, or null for none; choices: {constraint id: "forced"|"off"}. Answers
+/// the family, its program (lengths in half-diagonals of the drawn model, `scale` units each), what the sliders are
+/// bounded by, and one GLB a variation with the parts that it has.
 Result<Output> find_family(const Input& input) {
   const Result<Family> family = family_of(input.parameters);
   if (!family.ok()) return family.error();
@@ -114,6 +118,8 @@ Result<Output> find_family(const Input& input) {
   return output;
 }
 
+/// As find_family, and setting: one value a slider, in the model's unit; with: one true or false an optional group.
+/// Answers the OpenSCAD text that begins there, and the Customizer's parameter sets.
 Result<Output> family_text(const Input& input) {
   const Result<Family> family = family_of(input.parameters);
   if (!family.ok()) return family.error();
@@ -131,8 +137,6 @@ Result<Output> family_text(const Input& input) {
   return Output{{{"scad", family_scad(*family, shown)}, {"sets", parameter_sets(*family)}}, {}};
 }
 
-namespace {
-
 struct Asked {
   cad::Model model;
   const CadTask* task;
@@ -149,8 +153,8 @@ Result<Asked> asked_of(const json& parameters) {
   return Asked{std::move(*model), known, kind.get<std::string>()};
 }
 
-}  // namespace
-
+/// cad; task: kinds or variation; kind: which one, for variation, else empty; count: of kinds, 0 as many as usual.
+/// Answers {prompt: {task, text, hash, version}, words, schema}.
 Result<Output> cad_prompt(const Input& input) {
   const Result<Asked> asked = asked_of(input.parameters);
   if (!asked.ok()) return asked.error();
@@ -163,6 +167,8 @@ Result<Output> cad_prompt(const Input& input) {
       {{"prompt", to_json(*prompt)}, {"words", asked->task->words}, {"schema", reply_schema(asked->task->name)}}, {}};
 }
 
+/// cad, task and kind as for cad_prompt; texts: the replies. Answers what they mean, counted:
+/// core/infer/variation_reply.h.
 Result<Output> read_cad_replies(const Input& input) {
   const Result<Asked> asked = asked_of(input.parameters);
   if (!asked.ok()) return asked.error();
@@ -177,6 +183,7 @@ Result<Output> read_cad_replies(const Input& input) {
   return Output{*read, {}};
 }
 
+/// The gallery's CAD programs: [{id}], and their texts and variations as buffers, two each.
 Result<Output> cad_gallery(const Input&) {
   Output output{{{"programs", json::array()}}, {}};
   for (const GalleryProgram& program : gallery_programs()) {
@@ -185,6 +192,17 @@ Result<Output> cad_gallery(const Input&) {
     output.buffers.emplace_back(program.variations);
   }
   return output;
+}
+
+constexpr std::array all_methods = {
+    Method{"open_cad", open_cad},     Method{"find_family", find_family},           Method{"family_text", family_text},
+    Method{"cad_prompt", cad_prompt}, Method{"read_cad_replies", read_cad_replies}, Method{"cad_gallery", cad_gallery},
+};
+
+}  // namespace
+
+std::span<const Method> methods() {
+  return all_methods;
 }
 
 }  // namespace parsel::wasm

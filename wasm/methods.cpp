@@ -22,7 +22,6 @@
 #include "core/prove/together.h"
 #include "core/shape/abstraction.h"
 #include "core/split/split.h"
-#include "wasm/cad_methods.h"
 
 namespace parsel::wasm {
 
@@ -97,7 +96,8 @@ Result<Output> solve(const Input& input) {
   return Output{{{"solutions", solutions(*equation, *unknown)}}, {}};
 }
 
-/// buffers = the file, then the external buffers that `external` names, in its order. labels: see abstract_shape().
+/// buffers = the file, then the external buffers that `external` names, in its order. labels: see abstract_shape(); so corrections,
+/// as in corrections_from_json().
 Result<Output> open(const Input& input) {
   const Result<std::string> name = text_parameter(input, "name");
   if (!name.ok()) return name.error();
@@ -117,7 +117,9 @@ Result<Output> open(const Input& input) {
     if (!label.is_string()) return wrong_parameter("labels", "labels by part");
     labels[key] = label.get<std::string>();
   }
-  Result<Abstraction> abstraction = abstract_shape(input.buffers[0], *name, external, labels);
+  const Result<Corrections> corrections = corrections_from_json(input.parameters.value("corrections", json::array()));
+  if (!corrections.ok()) return corrections.error();
+  Result<Abstraction> abstraction = abstract_shape(input.buffers[0], *name, external, labels, *corrections);
   if (!abstraction.ok()) return abstraction.error();  // the open model stays
   model = OpenModel{std::move(abstraction->shape), input.buffers[0], std::move(external)};
   return Output{{{"shape", to_json(model->shape)}}, {}};
@@ -397,12 +399,6 @@ constexpr std::array all_methods = {
     Method{"prompts", prompts},
     Method{"proposal_prompt", proposal_prompt},
     Method{"read_replies", read_replies},
-    Method{"open_cad", open_cad},
-    Method{"find_family", find_family},
-    Method{"family_text", family_text},
-    Method{"cad_prompt", cad_prompt},
-    Method{"read_cad_replies", read_cad_replies},
-    Method{"cad_gallery", cad_gallery},
     Method{"memory", memory},
     Method{"fail", fail},
 };
@@ -411,12 +407,6 @@ constexpr std::array all_methods = {
 
 std::span<const Method> methods() {
   return all_methods;
-}
-
-const Method* find_method(std::string_view name) {
-  const auto found =
-      std::find_if(all_methods.begin(), all_methods.end(), [&](const Method& m) { return m.name == name; });
-  return found == all_methods.end() ? nullptr : &*found;
 }
 
 }  // namespace parsel::wasm

@@ -28,8 +28,8 @@ struct Method {
   Result<Output> (*run)(const Input& input);
 };
 
-/// Every method, each of the same name in web/src/worker/protocol.ts.
+/// Every method of this module, each of the same name in web/src/worker/protocol.ts. methods.cpp has those of the module
+/// that the page begins with, cad_methods.cpp those of the one for CAD programs.
 std::span<const Method> methods();
-const Method* find_method(std::string_view name);
 
 }  // namespace parsel::wasm

@@ -46,7 +46,9 @@ int run(const Arguments& arguments) {
   if (arguments.has("--repair") && (arguments.has("--animate") || arguments.has("--morph")))
     return misuse("apply takes --repair for one state of the sliders, not with --animate or --morph");
   if (const Status allowed = replaces_a_model(arguments); !allowed.ok()) return refuse(allowed.error());
-  const auto model = load_model(arguments.positional[0]);
+  const Result<Corrections> corrections = read_corrections(arguments);
+  if (!corrections) return refuse(corrections.error());
+  const auto model = load_model(arguments.positional[0], {}, *corrections);
   if (!model) return refuse(model.error());
   const Shape& shape = model->abstraction.shape;
   const auto program = read_program(arguments.positional[1], shape);
@@ -91,14 +93,15 @@ int run(const Arguments& arguments) {
 extern const Command apply_command;
 const Command apply_command = {
     "apply",
-    "MODEL.glb PROGRAM [--set x1=0.2]… [--animate x1 | --morph | --repair] [--only part,part] [--force] -o "
+    "MODEL.glb PROGRAM [--corrections FILE.json] [--set x1=0.2]… [--animate x1 | --morph | --repair] [--only "
+    "part,part] [--force] -o "
     "OUT.glb",
     "Writes the model as the program edits it (--animate: with an animation that plays the parameter; --morph: with a "
     "morph target for every slider, as other tools show them, and prints their names and errors in metres; --repair: "
     "with parts that the edit has pulled apart made longer until they meet, and prints which, and what is left; "
     "--force: "
     "over the model that it reads, or over a file that is no GLB).",
-    {"--set", "--animate", "--only", "-o"},
+    {"--set", "--animate", "--only", "--corrections", "-o"},
     {"--force", "--morph", "--repair"},
     run};
 

@@ -1,7 +1,6 @@
 #include "core/cli/input.h"
 
 #include "core/base/json.h"
-#include "core/cli/command.h"
 #include "core/cli/model.h"
 #include "core/cli/program_file.h"
 
@@ -28,11 +27,25 @@ Result<nlohmann::json> read_json(const std::string& path) {
   return json;
 }
 
-Result<Shape> read_shape(const std::string& path) {
+Result<Corrections> read_corrections(const Arguments& arguments) {
+  if (!arguments.has("--corrections")) return Corrections{};
+  const std::string path = arguments.option("--corrections");
+  const Result<nlohmann::json> json = read_json(path);
+  if (!json) return json.error();
+  Result<Corrections> corrections = corrections_from_file(*json);
+  if (!corrections) return at_path(corrections.error(), path);
+  return corrections;
+}
+
+Result<Shape> read_shape(const std::string& path, const Corrections& corrections) {
   if (!ends_with(path, ".json")) {
-    Result<Model> model = load_model(path);
+    Result<Model> model = load_model(path, {}, corrections);
     if (!model) return model.error();
     return std::move(model->abstraction.shape);
+  }
+  if (!corrections.empty()) {
+    return Error{"cli", path, "a shape that was written down cannot be corrected any more",
+                 "give the model, or parsel inspect MODEL --corrections FILE -o SHAPE.json"};
   }
   const Result<nlohmann::json> json = read_json(path);
   if (!json) return json.error();

@@ -5,14 +5,19 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/cli/command.h"
 #include "core/edit/program.h"
 #include "core/propagate/edit_request.h"
+#include "core/shape/corrections.h"
 #include "core/shape/shape.h"
 
 namespace parsel::cli {
 
-/// The shape of a .glb or .gltf model, or one that `parsel inspect` wrote (.json).
-Result<Shape> read_shape(const std::string& path);
+/// The corrections in the file that the option --corrections names; none without it. Error places begin with the path.
+Result<Corrections> read_corrections(const Arguments& arguments);
+
+/// The shape of a .glb or .gltf model, or one that `parsel inspect` wrote (.json), which is corrected already.
+Result<Shape> read_shape(const std::string& path, const Corrections& corrections = {});
 
 Result<nlohmann::json> read_json(const std::string& path);
 

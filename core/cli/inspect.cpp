@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/cli/command.h"
+#include "core/cli/input.h"
 #include "core/cli/model.h"
 #include "core/shape/words.h"
 
@@ -11,7 +12,9 @@ namespace {
 
 int run(const Arguments& arguments) {
   if (arguments.positional.size() != 1) return misuse("inspect takes one model");
-  const Result<Model> model = load_model(arguments.positional[0]);
+  const Result<Corrections> corrections = read_corrections(arguments);
+  if (!corrections.ok()) return refuse(corrections.error());
+  const Result<Model> model = load_model(arguments.positional[0], {}, *corrections);
   if (!model.ok()) return refuse(model.error());
   const Shape& shape = model->abstraction.shape;
   for (const Warning& warning : shape.warnings)
@@ -30,9 +33,10 @@ int run(const Arguments& arguments) {
 
 extern const Command inspect_command;
 const Command inspect_command = {"inspect",
-                                 "MODEL.glb [-o SHAPE.json] [--words]",
-                                 "Finds parts, hexahedra and relations of a GLB or glTF model (--words: in sentences).",
-                                 {"-o"},
+                                 "MODEL.glb [--corrections FILE.json] [-o SHAPE.json] [--words]",
+                                 "Finds parts, hexahedra and relations of a GLB or glTF model (--words: in sentences; "
+                                 "--corrections: with joints and mirror images as parsel/corrections declares them).",
+                                 {"-o", "--corrections"},
                                  {"--words"},
                                  run};
 

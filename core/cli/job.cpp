@@ -56,7 +56,7 @@ class Work {
 
  private:
   Status all() {
-    Result<Model> model = load_model((from_ / job_.model).string(), job_.labels);
+    Result<Model> model = load_model((from_ / job_.model).string(), job_.labels, job_.corrections);
     if (!model) return model.error();
     model_ = std::move(*model);
     const Shape& shape = model_.abstraction.shape;

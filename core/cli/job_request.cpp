@@ -122,8 +122,9 @@ Result<JobSiblings> siblings_of(const json& object) {
 }  // namespace
 
 Result<Job> job_from_json(const json& given) {
-  if (const Status known =
-          only_keys(given, "", {"model", "id", "labels", "edits", "apply", "siblings", "shape", "format", "version"});
+  if (const Status known = only_keys(
+          given, "",
+          {"model", "id", "labels", "corrections", "edits", "apply", "siblings", "shape", "format", "version"});
       !known) {
     return known.error();
   }
@@ -144,6 +145,13 @@ Result<Job> job_from_json(const json& given) {
     if (!label.is_string()) return refused("/labels/" + pointer_token(part), "is no text", "write it in quotes");
     job.labels[part] = label.get<std::string>();
   }
+  Result<Corrections> corrections = corrections_from_json(given.value("corrections", json::array()));
+  if (!corrections) {
+    Error error = corrections.error();
+    error.place.insert(0, "/corrections");
+    return error;
+  }
+  job.corrections = std::move(*corrections);
   const auto edits = list_of(given, "", "edits"), applies = list_of(given, "", "apply");
   if (!edits) return edits.error();
   if (!applies) return applies.error();

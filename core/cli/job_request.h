@@ -2,6 +2,7 @@
 //   {"model": "chair.glb",                                         needed; all else may be left out
 //    "id": "wide chairs",                                          what the result is called
 //    "labels": {"node:3": "leg"},                                  see abstract_shape()
+//    "corrections": [{"kind": "apart", "parts": ["node:3/0", "node:5/0"]}],   see core/shape/corrections.h
 //    "edits": [{"request": "widen the chair", "mention": [ids]},   read plainly, without a language model
 //              {"edit": parsel/edit or its file, "request": "…"},  a seed edit, propagated
 //              {"program": parsel/program or its file}],           as it is
@@ -46,6 +47,7 @@ struct JobSiblings {
 struct Job {
   std::string id, model;
   Labels labels;
+  Corrections corrections;
   std::vector<JobEdit> edits;
   std::vector<JobApply> apply;
   std::optional<JobSiblings> siblings;

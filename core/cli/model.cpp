@@ -19,7 +19,7 @@ std::string own_format(const std::string& bytes) {
 
 }  // namespace
 
-Result<Model> load_model(const std::string& path, const Labels& labels) {
+Result<Model> load_model(const std::string& path, const Labels& labels, const Corrections& corrections) {
   Result<std::string> bytes = read_file(path);
   if (!bytes.ok()) return bytes.error();
   Model model;
@@ -33,7 +33,8 @@ Result<Model> load_model(const std::string& path, const Labels& labels) {
     Result<std::string> buffer = read_file((file.parent_path() / relative).string());
     if (buffer.ok()) model.buffers[uri] = std::move(*buffer);
   }
-  Result<Abstraction> abstraction = abstract_shape(model.bytes, file.stem().string(), model.buffers, labels);
+  Result<Abstraction> abstraction =
+      abstract_shape(model.bytes, file.stem().string(), model.buffers, labels, corrections);
   if (!abstraction.ok()) {
     if (const std::string format = own_format(model.bytes); !format.empty()) {
       return Error{"cli", path, "it is of the format parsel/" + format + ", not a model",

@@ -15,7 +15,7 @@ struct Model {
 };
 
 /// Reads MODEL.glb or MODEL.gltf; a .gltf's buffers are read from its own folder or below, never from elsewhere. The
-/// shape's name is the file's without folder and extension. `labels`: see abstract_shape().
-Result<Model> load_model(const std::string& path, const Labels& labels = {});
+/// shape's name is the file's without folder and extension. `labels` and `corrections`: see abstract_shape().
+Result<Model> load_model(const std::string& path, const Labels& labels = {}, const Corrections& corrections = {});
 
 }  // namespace parsel::cli

@@ -15,7 +15,9 @@ namespace {
 int run(const Arguments& arguments) {
   if (arguments.positional.size() != 2) return misuse("propagate takes a model and an edit");
   if (const Status allowed = may_write(arguments, "--trace"); !allowed.ok()) return refuse(allowed.error());
-  const Result<Shape> shape = read_shape(arguments.positional[0]);
+  const Result<Corrections> corrections = read_corrections(arguments);
+  if (!corrections.ok()) return refuse(corrections.error());
+  const Result<Shape> shape = read_shape(arguments.positional[0], *corrections);
   if (!shape.ok()) return refuse(shape.error());
   const Result<EditRequest> request = read_edit(arguments.positional[1]);
   if (!request.ok()) return refuse(request.error());
@@ -48,12 +50,13 @@ int run(const Arguments& arguments) {
 extern const Command propagate_command;
 const Command propagate_command = {
     "propagate",
-    "MODEL.glb|SHAPE.json EDIT.json [--onto PROGRAM] [-o PROGRAM.json] [--trace TRACE.json] [--request TEXT] "
+    "MODEL.glb|SHAPE.json EDIT.json [--corrections FILE.json] [--onto PROGRAM] [-o PROGRAM.json] [--trace TRACE.json] "
+    "[--request TEXT] "
     "[--no-neighbour-edits] [--no-breaking-edits]",
     "Finds the edits that follow from seed edits, as a program (--trace: and why; --onto: as the last layer of a "
     "program, "
     "worked out on what its other layers leave).",
-    {"-o", "--trace", "--request", "--onto"},
+    {"-o", "--trace", "--request", "--onto", "--corrections"},
     {"--no-neighbour-edits", "--no-breaking-edits"},
     run};
 

@@ -30,7 +30,9 @@ int run(const Arguments& arguments) {
   }
   const auto seed = whole<std::uint64_t>(arguments.option("--seed", "1"));
   if (!seed) return misuse("--seed takes a whole number from 0");
-  const auto model = load_model(arguments.positional[0]);
+  const Result<Corrections> corrections = read_corrections(arguments);
+  if (!corrections) return refuse(corrections.error());
+  const auto model = load_model(arguments.positional[0], {}, *corrections);
   if (!model) return refuse(model.error());
   const auto program = read_program(arguments.positional[1], model->abstraction.shape);
   if (!program) return refuse(program.error());
@@ -54,10 +56,10 @@ int run(const Arguments& arguments) {
 extern const Command sample_command;
 const Command sample_command = {
     "sample",
-    "MODEL.glb PROGRAM [--count 9] [--seed 1] [--force] -o DIR",
+    "MODEL.glb PROGRAM [--corrections FILE.json] [--count 9] [--seed 1] [--force] -o DIR",
     "Writes random siblings of a model, every slider somewhere in its range, as GLBs, and siblings.jsonl. Settings in "
     "which sliders spoil together what each alone keeps are left out, and counted.",
-    {"--count", "--seed", "-o"},
+    {"--count", "--seed", "--corrections", "-o"},
     {"--force"},
     run};
 

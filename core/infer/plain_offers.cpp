@@ -70,11 +70,17 @@ class Offers {
       return other.title.size() == title.size() && other.title.substr(1) == title.substr(1);
     });
   }
-  /// "Leg height", "Tabletop thickness": a part by its name, several by what they are called without their side.
+  /// "Leg height", "Seat slat count": a part by its name, several by their label, or by what their labels have in common
+  /// without their sides.
   std::string title_of(const std::vector<PartIndex>& parts, const std::string& quantity) const {
     const Part& named = shape_.parts[parts.front()];
-    const std::string& label = named.is_virtual() ? shape_.parts[named.members.front()].label : named.label;
-    std::string base = grouping_key(label);
+    std::set<std::string> labels;
+    for (const PartIndex p : parts) {
+      if (!shape_.parts[p].is_virtual()) labels.insert(shape_.parts[p].label);
+      for (const PartIndex member : shape_.parts[p].members) labels.insert(shape_.parts[member].label);
+    }
+    const std::string& label = *labels.begin();
+    std::string base = labels.size() == 1 && grouping_key(label) != "part" ? label : grouping_key(label);
     const bool is_one = parts.size() == 1 && !named.is_virtual();
     if (is_one || base.empty() || base == "part" || is_taken(base + " " + quantity)) base = name_of(shape_, parts[0]);
     std::replace(base.begin(), base.end(), '_', ' ');

@@ -33,8 +33,8 @@ bool touch_each_other(const Hexahedron& box, const Vec3& delta) {
 /// Builds the graph from meshes, aligned boxes and symmetries.
 class Builder {
  public:
-  Builder(Shape& shape, const PartData<PartMesh>& meshes, Symmetries symmetries)
-      : shape_(shape), meshes_(meshes), symmetries_(std::move(symmetries)) {}
+  Builder(Shape& shape, const PartData<PartMesh>& meshes, Symmetries symmetries, const std::vector<Declared>& declared)
+      : shape_(shape), meshes_(meshes), symmetries_(std::move(symmetries)), declared_(declared) {}
 
   void run(const PartData<Hexahedron>& boxes) {
     add_parts(boxes);
@@ -154,8 +154,8 @@ class Builder {
     }
   }
 
-  /// Where real parts meet.
-  Contacts real_contacts() const {
+  /// Where real parts meet, and what was declared of it.
+  std::pair<Contacts, CorrectedContacts> real_contacts() const {
     PartData<Hexahedron> boxes;
     MeasuredAxes axes;
     for (const PartIndex p : meshes_.indices()) {
@@ -166,25 +166,31 @@ class Builder {
     Contacts contacts = find_contacts(meshes_, boxes, axes);
     make_alike(contacts, meshes_, boxes, axes, symmetries_);
     drop_covered(contacts, boxes);
-    return contacts;
+    CorrectedContacts corrected = correct_contacts(contacts, meshes_, boxes, axes, symmetries_, declared_);
+    return {std::move(contacts), std::move(corrected)};
   }
 
   /// Between real parts first; a virtual part then inherits the regions of its instances.
   void add_attachments() {
     const auto at = [](PartIndex a, PartIndex b) { return std::pair(std::min(a, b), std::max(a, b)); };
-    Contacts regions = real_contacts();
+    auto [regions, corrected] = real_contacts();
     const auto nodes = [&](PartIndex p) {
       std::vector<PartIndex> out = {p};
       if (const auto parent = parent_of(p)) out.push_back(*parent);
       return out;
     };
     Contacts inherited;
+    std::set<PartPair> firm;
     for (const auto& [pair, region] : regions) {
+      const bool is_loose = corrected.loose.count(pair) > 0, is_gaping = corrected.gaping.count(pair) > 0;
       for (const PartIndex a : nodes(pair.first)) {
         for (const PartIndex b : nodes(pair.second)) {
           const bool own = a == pair.first && b == pair.second;
           // Instances of one group need no attachment to their own parent: the group relation ties them.
-          if (!own && a != b && parent_of(pair.first) != parent_of(pair.second)) inherited[at(a, b)].add(region);
+          if (own || a == b || parent_of(pair.first) == parent_of(pair.second)) continue;
+          inherited[at(a, b)].add(region);
+          (is_loose ? corrected.loose : firm).insert(at(a, b));
+          if (is_gaping) corrected.gaping.insert(at(a, b));
         }
       }
     }
@@ -197,6 +203,8 @@ class Builder {
       const bool b_in_a = contains(ha, hb) && !shape_.parts[a].is_virtual();
       if (region.empty() && !a_in_b && !b_in_a) continue;
       FoundAttachment found = attach(ha, hb, region, a_in_b, b_in_a);
+      if (corrected.gaping.count(pair) > 0) found.attachment.patch.reset();
+      if (corrected.loose.count(pair) > 0 && firm.count(pair) == 0) found = loosened(found, ha, hb);
       add('a', attachment_kind(found.order), {a, b}, std::move(found.attachment));
     }
   }
@@ -221,6 +229,7 @@ class Builder {
   Shape& shape_;
   const PartData<PartMesh>& meshes_;
   Symmetries symmetries_;
+  const std::vector<Declared>& declared_;
   std::vector<PartIndex> parents_;  ///< one a group
   std::map<PartIndex, PartIndex> parent_of_;
   std::vector<MirrorPair> parent_mirrors_;
@@ -245,6 +254,21 @@ Status relabel(PartData<PartMesh>& meshes, const Labels& labels) {
                "name parts as node:<index> or node:<index>/<primitive>"};
 }
 
+/// Declared mirror images that did not fit what else ties their boxes, so that they are none.
+void add_lost_mirrors(const Shape& shape, const std::vector<Declared>& declared, std::vector<Undone>& undone) {
+  for (const auto& [kind, pair] : declared) {
+    const bool is_told =
+        std::any_of(undone.begin(), undone.end(), [&, pair = pair](const Undone& other) { return other.pair == pair; });
+    if (kind != CorrectionKind::mirrored || is_told) continue;
+    const auto is_it = [&, pair = pair](const Relation& relation) {
+      return relation.kind == RelationKind::reflection &&
+             PartPair(std::minmax(relation.parts[0], relation.parts[1])) == pair;
+    };
+    if (std::none_of(shape.relations.begin(), shape.relations.end(), is_it))
+      undone.push_back({pair, "they do not agree with what else they mirror or stand in a row with"});
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> external_buffer_uris(std::string_view bytes) {
@@ -252,7 +276,7 @@ std::vector<std::string> external_buffer_uris(std::string_view bytes) {
 }
 
 Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name, const ExternalBuffers& buffers,
-                                   const Labels& labels) {
+                                   const Labels& labels, const Corrections& corrections) {
   Result<ImportedModel> imported = import_gltf(bytes, buffers);
   if (!imported.ok()) return imported.error();
   Abstraction result;
@@ -262,6 +286,8 @@ Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name
   result.shape.warnings = std::move(imported->warnings);
   result.meshes = std::move(imported->meshes);
   if (Status status = relabel(result.meshes, labels); !status.ok()) return status.error();
+  const Result<std::vector<Declared>> given = declared(corrections, result.meshes);
+  if (!given.ok()) return given.error();
 
   turn_into(own_axes(result.meshes), result.meshes, result.shape.frame);
 
@@ -272,8 +298,14 @@ Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name
     keys.push_back(grouping_key(mesh.label));
   }
   Symmetries symmetries = find_symmetries(result.meshes, boxes, keys);
+  std::vector<Undone> undone = correct_mirrors(symmetries, boxes, *given);
   const PartData<Hexahedron> aligned = align_boxes(boxes, symmetries);
-  Builder(result.shape, result.meshes, std::move(symmetries)).run(aligned);
+  Builder(result.shape, result.meshes, std::move(symmetries), *given).run(aligned);
+  add_lost_mirrors(result.shape, *given, undone);
+  for (const auto& [pair, why] : undone) {
+    const auto& parts = result.shape.parts;
+    result.shape.warnings.push_back({parts[pair.first].name + " and " + parts[pair.second].name, why});
+  }
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/index.h"
 #include "core/base/result.h"
 #include "core/gltf/document.h"
+#include "core/shape/corrections.h"
 #include "core/shape/part.h"
 #include "core/shape/shape.h"
 
@@ -29,9 +30,10 @@ struct Abstraction {
 /// §3.3). `name` is the shape's name, usually the file's without extension. The result passes validate().
 /// Deterministic: the same bytes give the same shape, ids and numbers. Fails when the file is damaged, too large, or
 /// holds no triangle mesh that can be read; what else is left out stands in shape.warnings. `labels` are cleaned like
-/// the file's own; one that names no part of the file is refused, its key being the error's place.
+/// the file's own; one that names no part of the file is refused, its key being the error's place. So are `corrections`;
+/// one that cannot be, such as of parts that are no mirror images by far, is left out and stands in shape.warnings.
 Result<Abstraction> abstract_shape(std::string_view bytes, std::string_view name, const ExternalBuffers& buffers = {},
-                                   const Labels& labels = {});
+                                   const Labels& labels = {}, const Corrections& corrections = {});
 
 /// The URIs of external buffers that the file names, percent-decoded, for the caller to fetch before abstract_shape().
 /// Empty for a damaged file, which abstract_shape() then refuses by name.

@@ -79,7 +79,7 @@ class Alike {
         for (const PartIndex neighbour : touched[part]) {
           const auto found = image.find({m.axis, m.offset, neighbour});
           const bool is_pair = found != image.end();
-          if (!is_pair && !lies_on(neighbour, m.axis, m.offset)) continue;
+          if (!is_pair && !is_own_image(boxes_[neighbour], m.axis, m.offset)) continue;
           const PartPair own = ordered(part, neighbour);
           const PartPair twin = ordered(other, is_pair ? found->second : neighbour);
           if (twin == own) continue;  // the two halves of a pair touch each other
@@ -148,13 +148,6 @@ class Alike {
     return touched;
   }
 
-  /// Whether a part is its own image about a plane.
-  bool lies_on(PartIndex part, int axis, double offset) const {
-    const Hexahedron& box = boxes_[part];
-    const bool is_across = std::abs(box.axes(axis, axis)) > 1 - 1e-6;
-    return is_across && std::abs(box.point(Vec3::Zero())[axis] - offset) <= on_plane;
-  }
-
   bool nearly_meet(const PartPair& pair) const {
     const auto [a, b] = pair;
     const double smaller = std::min(boxes_[a].half_extents().maxCoeff(), boxes_[b].half_extents().maxCoeff());
@@ -169,6 +162,11 @@ class Alike {
 };
 
 }  // namespace
+
+bool is_own_image(const Hexahedron& box, int axis, double offset) {
+  const bool is_across = std::abs(box.axes(axis, axis)) > 1 - 1e-6;
+  return is_across && std::abs(box.point(Vec3::Zero())[axis] - offset) <= on_plane;
+}
 
 void make_alike(Contacts& contacts, const PartData<PartMesh>& meshes, const PartData<Hexahedron>& boxes,
                 const MeasuredAxes& axes, const Symmetries& symmetries) {

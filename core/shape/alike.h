@@ -19,6 +19,9 @@ inline constexpr double twin_contact_distance = 0.03;
 void make_alike(Contacts& contacts, const PartData<PartMesh>& meshes, const PartData<Hexahedron>& boxes,
                 const MeasuredAxes& axes, const Symmetries& symmetries);
 
+/// Whether a part lies on the plane coordinate[axis] = offset, so that it is its own image about it.
+bool is_own_image(const Hexahedron& box, int axis, double offset);
+
 /// Leaves out contacts of parts that do not touch each other where a third part, in contact with both, fills the gap
 /// between them: a leg touches the board of a seat, not also the cushion on it.
 void drop_covered(Contacts& contacts, const PartData<Hexahedron>& boxes);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/shape/oriented_box.h"
-
 namespace parsel::split {
 namespace {
 
@@ -23,8 +21,7 @@ std::array<int, 3> longest_first(const Vec3& half) {
 
 }  // namespace
 
-std::string form_name(const PartMesh& mesh) {
-  const Hexahedron box = oriented_box(mesh);
+std::string form_name(const Hexahedron& box) {
   const Vec3 half = box.half_extents();
   const std::array<int, 3> order = longest_first(half);
   const double rise_of_longest = std::abs(box.axes(order[0], 1)), rise_of_normal = std::abs(box.axes(order[2], 1));
@@ -37,8 +34,8 @@ std::string form_name(const PartMesh& mesh) {
   return "block";
 }
 
-bool same_size(const PartMesh& a, const PartMesh& b) {
-  Vec3 p = oriented_box(a).half_extents(), q = oriented_box(b).half_extents();
+bool same_size(const Hexahedron& a, const Hexahedron& b) {
+  Vec3 p = a.half_extents(), q = b.half_extents();
   std::sort(p.begin(), p.end());
   std::sort(q.begin(), q.end());
   return ((p - q).cwiseAbs().array() <= 0.02 * p.cwiseMax(q).array()).all();

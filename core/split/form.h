@@ -3,15 +3,15 @@
 
 #include <string>
 
-#include "core/shape/part.h"
+#include "core/shape/hexahedron.h"
 
 namespace parsel::split {
 
 /// "board" (flat, lying), "upright panel", "slanted panel", "post" (long, upright), "rail" (long, level), "slanted bar",
 /// "block". By its oriented box; parts that are images of each other have one name. In the normalised frame, +y up.
-std::string form_name(const PartMesh& mesh);
+std::string form_name(const Hexahedron& box);
 
-/// Whether two meshes have boxes of one size, within 2 %.
-bool same_size(const PartMesh& a, const PartMesh& b);
+/// Whether two boxes are of one size, within 2 %.
+bool same_size(const Hexahedron& a, const Hexahedron& b);
 
 }  // namespace parsel::split

@@ -13,6 +13,7 @@ namespace parsel::split {
 struct Piece {
   std::vector<std::uint32_t> triangles;  ///< indices into PartMesh::triangles, ascending
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+  double area = 0;
 
   double diagonal() const { return (high - low).norm(); }
 };
@@ -25,7 +26,8 @@ std::vector<Piece> pieces_of(const PartMesh& mesh, const Components& numbering);
 double small_below(double fine);
 
 /// Joins what is small to what it sits on: of the pieces whose boxes it reaches into, the smallest that is not small
-/// itself, else the nearest. Pieces of which none is large enough stay as they are. Answers how many were joined.
-std::size_t join_small(std::vector<Piece>& pieces, double below);
+/// itself, else the nearest. Pieces of which none is large enough, or more than `most` are, stay as they are: the latter so
+/// that the time is bounded. Answers how many were joined.
+std::size_t join_small(std::vector<Piece>& pieces, double below, std::size_t most);
 
 }  // namespace parsel::split

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/split/weld.h"
 
 namespace parsel::split {
 namespace {
 
-constexpr std::uint32_t none = HashChains::none;
 /// A fan of hundreds of faces is no edge of a solid; and looking for partners takes the square of their number.
 constexpr std::size_t most_spokes = 64;
 
@@ -21,23 +21,17 @@ class Stitcher {
   void run() {
     const auto count = static_cast<HalfEdge>(3 * mesh_.triangles.size());
     seams_.across.assign(count, no_edge);
-    HashChains edges(count);
-    for (HalfEdge h = 0; h < count; ++h) {
-      if (from(h) != to(h)) edges.add(hash(h), h);
-    }
+    const std::vector<HalfEdge> edges = by_edge(count);
     std::vector<HalfEdge> fan;
-    std::vector<bool> done(count, false);
-    for (HalfEdge h = 0; h < count; ++h) {
-      if (done[h] || from(h) == to(h)) continue;
-      fan.clear();
-      for (HalfEdge other = edges.first(hash(h)); other != none; other = edges.next(other)) {
-        if (low(other) != low(h) || high(other) != high(h)) continue;
-        done[other] = true;
-        fan.push_back(other);
+    for (std::size_t first = 0, next = 0; first < edges.size(); first = next) {
+      while (next < edges.size() && low(edges[next]) == low(edges[first]) && high(edges[next]) == high(edges[first])) {
+        ++next;
       }
-      if (fan.size() == 2) {
-        glue(fan[0], fan[1]);
-      } else if (fan.size() > 2) {
+      if (next - first == 2) {
+        glue(edges[first], edges[first + 1]);
+      } else if (next - first > 2) {
+        fan.assign(edges.begin() + static_cast<std::ptrdiff_t>(first),
+                   edges.begin() + static_cast<std::ptrdiff_t>(next));
         glue_fan(fan);
       }
     }
@@ -49,7 +43,27 @@ class Stitcher {
   std::uint32_t to(HalfEdge h) const { return corner(h - h % 3 + (h + 1) % 3); }
   std::uint32_t low(HalfEdge h) const { return std::min(from(h), to(h)); }
   std::uint32_t high(HalfEdge h) const { return std::max(from(h), to(h)); }
-  std::uint64_t hash(HalfEdge h) const { return HashChains::mixed(std::uint64_t{low(h)} << 32 | high(h)); }
+
+  /// Half-edges that lead somewhere, those of one edge together: put into buckets by their low vertex, and sorted there.
+  std::vector<HalfEdge> by_edge(HalfEdge count) const {
+    std::vector<std::uint32_t> end(seams_.place.size() + 1, 0);
+    for (HalfEdge h = 0; h < count; ++h) {
+      if (from(h) != to(h)) ++end[low(h) + 1];
+    }
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    std::vector<HalfEdge> edges(end.back());
+    for (HalfEdge h = 0; h < count; ++h) {
+      if (from(h) != to(h)) edges[end[low(h)]++] = h;
+    }
+    for (std::size_t v = 0; v < seams_.place.size(); ++v) {
+      const auto at = [&](std::uint32_t i) { return edges.begin() + static_cast<std::ptrdiff_t>(i); };
+      std::sort(at(v == 0 ? 0 : end[v - 1]), at(end[v]), [&](HalfEdge a, HalfEdge b) {
+        const std::uint32_t x = high(a), y = high(b);
+        return x != y ? x < y : a < b;
+      });
+    }
+    return edges;
+  }
 
   void glue(HalfEdge a, HalfEdge b) {
     seams_.across[a] = b;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -9,6 +10,8 @@
 #include "core/gltf/scene.h"
 #include "core/shape/gltf_import.h"
 #include "core/shape/label.h"
+#include "core/shape/oriented_box.h"
+#include "core/split/behind.h"
 #include "core/split/creases.h"
 #include "core/split/form.h"
 #include "core/split/pieces.h"
@@ -26,7 +29,16 @@ constexpr std::array<std::pair<SplitMethod, std::string_view>, 4> methods = {{{S
                                                                               {SplitMethod::regions, "regions"}}};
 
 /// Fewer parts than this, and components have told nothing apart: a fused model, maybe with a few screws.
-constexpr std::size_t few_parts = 3;
+constexpr std::size_t few_parts = 4;
+/// … and so is one of which a single component has this share of the surface. The largest parts of furniture have up to 0.71
+/// of it (a round table's top), what is fused at most of its joints from 0.98.
+constexpr double most_of_it = 0.85;
+/// Of one mesh, more regions than this are no parts: it is creased all over, as scans are. Fused furniture has up to 39.
+constexpr std::size_t most_regions = 200;
+/// How much coarser a model of too many pieces is split, again and again, when nobody said how.
+constexpr double coarser = 0.25;
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 Error refused(std::string cause, std::string fix) {
   return {"split/split", "", std::move(cause), std::move(fix)};
@@ -36,7 +48,8 @@ Error refused(std::string cause, std::string fix) {
 struct Group {
   PartMesh mesh;
   std::vector<VertexOf> vertices;  ///< where each vertex of `mesh` comes from
-  std::vector<Piece> pieces;
+  std::vector<Piece> apart;        ///< all that is told apart
+  std::vector<Piece> pieces;       ///< what is left of it once what is small has gone to what it sits on
   std::optional<Seams> seams;
 };
 
@@ -62,15 +75,29 @@ class Splitter {
   Result<SplitModel> run() {
     result_.before = result_.parts = model_.meshes.size();
     find_sources();
-    result_.by = options_.by == SplitMethod::automatic ? SplitMethod::components : options_.by;
-    if (Status s = take_apart(); !s.ok()) return s.error();
-    if (options_.by == SplitMethod::automatic && result_.parts < few_parts) {
-      result_.by = SplitMethod::regions;
-      if (Status s = take_apart(); !s.ok()) return s.error();
+    const bool chooses = options_.by == SplitMethod::automatic;
+    result_.by = chooses ? SplitMethod::components : options_.by;
+    take_apart();
+    if (chooses && (count_parts() < few_parts || largest_share() > most_of_it)) {
+      for (Source& source : sources_) {
+        for (Group& group : source.groups) {
+          if (take_regions(source, group)) result_.by = SplitMethod::regions;
+        }
+      }
+      join();
     }
+    while (chooses && count_parts() > ImportLimits().parts && fine_ > 0) {
+      fine_ = std::max(fine_ - coarser, 0.0);
+      join();
+      if (count_parts() <= ImportLimits().parts) {
+        result_.warnings.push_back({"the model", "it was split coarser: it falls into very many pieces"});
+      }
+    }
+    result_.parts = count_parts();
+    if (result_.parts > ImportLimits().parts) return too_many();
     std::vector<NewNodes> meshes;
     for (const Source& source : sources_) {
-      if (source.pieces() > 1 || source.primitives.size() > 1) meshes.push_back(named(source));
+      if (source.pieces() > 1 || source.primitives.size() > 1) meshes.push_back(named(source, meshes.size()));
     }
     report(progress_, "writing the parts", 0, 1);
     if (Status s = write_pieces(file_, meshes); !s.ok()) return s.error();
@@ -105,7 +132,7 @@ class Splitter {
       return alike(file_.original, source.mesh, static_cast<std::size_t>(other.mesh.primitive), number);
     });
     if (group == source.groups.end()) {
-      source.groups.push_back({primitive, {}, {}, {}});
+      source.groups.push_back({primitive, {}, {}, {}, {}});
       group = std::prev(source.groups.end());
       group->mesh.positions.clear();
       group->mesh.triangles.clear();
@@ -133,72 +160,126 @@ class Splitter {
     return "";
   }
 
-  Status take_apart() {
-    std::size_t parts = result_.before;
-    result_.joined = 0;
+  void take_apart() {
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       report(progress_, "looking for what hangs together", static_cast<int>(i), static_cast<int>(sources_.size()));
-      Source& source = sources_[i];
-      for (Group& group : source.groups) {
-        group.pieces = pieces_in(group);
-        if (result_.by != SplitMethod::materials)
-          result_.joined += join_small(group.pieces, small_below(options_.fine));
-      }
-      parts += source.nodes * source.pieces();
-      parts -= source.nodes * source.primitives.size();
-      if (parts > ImportLimits().parts) {
-        return refused("it comes apart into more than " + std::to_string(ImportLimits().parts) + " pieces",
-                       "split it coarser, so that small pieces go to what they sit on");
-      }
+      for (Group& group : sources_[i].groups) group.apart = pieces_in(group, result_.by);
     }
-    result_.parts = parts;
-    return success();
+    join();
   }
 
-  std::vector<Piece> pieces_in(Group& group) const {
+  /// Along creases, unless there are too many of them to be the borders of parts.
+  bool take_regions(const Source& source, Group& group) {
+    const std::string place = "mesh " + std::to_string(source.mesh);
+    if (group.mesh.triangles.size() > CreaseOptions().most_triangles) {
+      result_.warnings.push_back({place, "it hangs together and is as fine as a scan: cut it by hand where parts end"});
+      return false;
+    }
+    report(progress_, "looking for creases", 0, 1);
+    std::vector<Piece> regions = pieces_in(group, SplitMethod::regions), large = regions;
+    join_small(large, small_below(fine_), ImportLimits().parts);
+    if (large.size() > group.pieces.size() + most_regions) {
+      result_.warnings.push_back({place, "it hangs together and is creased all over: cut it by hand where parts end"});
+      return false;
+    }
+    group.apart = std::move(regions);
+    return true;
+  }
+
+  /// What is small goes to what it sits on.
+  void join() {
+    result_.joined = 0;
+    for (Source& source : sources_) {
+      for (Group& group : source.groups) {
+        group.pieces = group.apart;
+        if (result_.by == SplitMethod::materials) continue;
+        result_.joined += join_small(group.pieces, small_below(fine_), ImportLimits().parts);
+      }
+    }
+  }
+
+  std::size_t count_parts() const {
+    std::size_t parts = result_.before;
+    for (const Source& source : sources_) {
+      parts += source.nodes * source.pieces();
+      parts -= source.nodes * source.primitives.size();
+    }
+    return parts;
+  }
+
+  Error too_many() {
+    std::string cause = "it comes apart into more than " + std::to_string(ImportLimits().parts) + " pieces";
+    fine_ = 0;
+    join();
+    if (count_parts() <= ImportLimits().parts) {
+      return refused(std::move(cause), "split it coarser, so that small pieces go to what they sit on");
+    }
+    return refused(cause + ", however coarse", "leave it in one piece, and cut it by hand where parts end");
+  }
+
+  /// Of the surface of the model, what its largest piece has.
+  double largest_share() const {
+    double all = 0, largest = 0;
+    for (const Source& source : sources_) {
+      for (const Group& group : source.groups) {
+        for (const Piece& piece : group.pieces) {
+          all += static_cast<double>(source.nodes) * piece.area;
+          largest = std::max(largest, piece.area);
+        }
+      }
+    }
+    return all > 0 ? largest / all : 0;
+  }
+
+  static std::vector<Piece> pieces_in(Group& group, SplitMethod by) {
     const PartMesh& mesh = group.mesh;
-    if (result_.by == SplitMethod::materials) {
+    if (by == SplitMethod::materials) {
       return pieces_of(mesh, {std::vector<std::uint32_t>(mesh.triangles.size(), 0), 1});
     }
     const bool turned = mesh.world.topLeftCorner<3, 3>().determinant() < 0;
     if (!group.seams) group.seams = close_seams(mesh, turned);
-    return pieces_of(mesh, result_.by == SplitMethod::regions
-                               ? crease_regions(mesh, *group.seams, turned)
-                               : components(*group.seams, [](HalfEdge) { return true; }));
+    const Components apart = by == SplitMethod::regions ? crease_regions(mesh, *group.seams, turned)
+                                                        : components(*group.seams, [](HalfEdge) { return true; });
+    return pieces_of(mesh, join_behind(mesh, *group.seams, turned, apart));
   }
 
-  /// The triangles of a piece with the vertices that they use.
-  static PartMesh mesh_of(const PartMesh& mesh, const Piece& piece) {
+  /// The triangles of a piece with the vertices that they use. `number` by vertex of `mesh`: all none, before and after.
+  static PartMesh mesh_of(const PartMesh& mesh, const Piece& piece, std::vector<std::uint32_t>& number) {
     PartMesh out;
     std::vector<std::uint32_t> used;
-    for (const std::uint32_t t : piece.triangles)
-      used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (const std::uint32_t v : used) out.positions.push_back(mesh.positions[v]);
     for (const std::uint32_t t : piece.triangles) {
       Triangle corners{};
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = std::lower_bound(used.begin(), used.end(), mesh.triangles[t][k]);
-        corners[k] = static_cast<std::uint32_t>(at - used.begin());
+        const std::uint32_t v = mesh.triangles[t][k];
+        if (number[v] == none) {
+          number[v] = static_cast<std::uint32_t>(used.size());
+          used.push_back(v);
+          out.positions.push_back(mesh.positions[v]);
+        }
+        corners[k] = number[v];
       }
       out.triangles.push_back(corners);
     }
+    for (const std::uint32_t v : used) number[v] = none;
     return out;
   }
 
-  static NewNodes named(const Source& source) {
+  NewNodes named(const Source& source, std::size_t done) const {
     NewNodes out{source.mesh, {}};
     const std::string& label = source.primitives.front()->label;
-    std::optional<PartMesh> first;
+    std::optional<Hexahedron> first;
     bool all_alike = grouping_key(label) != "part";
     for (const Group& group : source.groups) {
+      std::vector<std::uint32_t> number(group.mesh.positions.size(), none);
       for (const Piece& piece : group.pieces) {
+        if (out.nodes.size() % 50 == 0) {
+          report(progress_, "measuring the parts", static_cast<int>(done), static_cast<int>(sources_.size()));
+        }
         NewNode node;
-        const PartMesh mesh = mesh_of(group.mesh, piece);
-        node.name = form_name(mesh);
-        if (!first) first = mesh;
-        all_alike = all_alike && same_size(*first, mesh);
+        const Hexahedron box = oriented_box(mesh_of(group.mesh, piece, number));
+        node.name = form_name(box);
+        if (!first) first = box;
+        all_alike = all_alike && same_size(*first, box);
         for (const std::uint32_t t : piece.triangles) {
           const Triangle& corners = group.mesh.triangles[t];
           node.triangles.push_back(
@@ -217,6 +298,7 @@ class Splitter {
   const ImportedModel& model_;
   const SplitOptions& options_;
   const Progress& progress_;
+  double fine_ = options_.fine;  ///< coarser where it has to be
   SplitModel result_;
   std::vector<Source> sources_;
 };

@@ -18,10 +18,10 @@
 namespace parsel {
 
 enum class SplitMethod {
-  automatic,   ///< components; where these are fewer than three, regions
+  automatic,   ///< components; where these are fewer than four, or one has nearly all of the surface, regions
   components,  ///< what hangs together, once vertices at one place are one (core/split/seams.h)
   materials,   ///< one part a material of each mesh
-  regions,     ///< components, and these along concave creases (core/split/creases.h)
+  regions,     ///< components, and these along concave creases (core/split/creases.h, behind.h)
 };
 
 /// "auto", "components", "materials", "regions".
@@ -44,8 +44,9 @@ struct SplitModel {
 
 /// Only meshes that come apart change. Each of their nodes keeps its place, name and children and gets a child a piece,
 /// named by its form ("upright panel") or, when all pieces are alike and the node has a name, by that. Meshes that are
-/// skinned, instanced by GPU, with morph targets or compressed stay whole. Deterministic. Error: as abstract_shape();
-/// more pieces than a model may have parts; `fine` out of range.
+/// skinned, instanced by GPU, with morph targets or compressed stay whole. Automatic also leaves whole what is creased all over,
+/// and goes coarser where there are more pieces than a model may have parts. Deterministic. Error: as abstract_shape(); more
+/// pieces than that, and no coarser way or one was named; `fine` out of range.
 Result<SplitModel> split_model(std::string_view bytes, const ExternalBuffers& external = {},
                                const SplitOptions& options = {}, const Progress& progress = {});
 

@@ -16,6 +16,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::uint32_t unnumbered = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t array_buffer = 34962, element_array_buffer = 34963;
 
 /// Calls `see` with every whole number in `value`, however deep.
@@ -162,10 +163,7 @@ class Writer {
   }
 
   Status add_primitive(json& primitive, const json& sources, const NewNode& node) {
-    std::vector<VertexOf> used;
-    for (const auto& t : node.triangles) used.insert(used.end(), t.begin(), t.end());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    const std::vector<VertexOf> used = number_vertices(node);
     const json attributes = primitive["attributes"];
     for (const auto& entry : attributes.items()) {
       const std::string& name = entry.key();
@@ -175,17 +173,37 @@ class Writer {
     }
     const bool is_short = used.size() < 65535;
     std::string bytes;
+    bytes.reserve(3 * node.triangles.size() * (is_short ? 2 : 4));
     for (const auto& t : node.triangles) {
       for (const VertexOf& v : t) {
-        const auto index = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+        const std::uint32_t index = numbers_[v.primitive][v.vertex];
         bytes.append(reinterpret_cast<const char*>(&index), is_short ? 2 : 4);  // little-endian: see accessor.cpp
       }
     }
+    for (const VertexOf& v : used) numbers_[v.primitive][v.vertex] = unnumbered;
     primitive["indices"] = put({{"componentType", is_short ? gltf::type_unsigned_short : gltf::type_unsigned_int},
                                 {"count", 3 * node.triangles.size()},
                                 {"type", "SCALAR"}},
                                std::move(bytes), 0, element_array_buffer);
     return success();
+  }
+
+  /// The vertices of a node, ascending, and in numbers_ where each of them stands among these.
+  std::vector<VertexOf> number_vertices(const NewNode& node) {
+    std::vector<VertexOf> used;
+    for (const auto& t : node.triangles) {
+      for (const VertexOf& v : t) {
+        if (numbers_.size() <= v.primitive) numbers_.resize(v.primitive + 1);
+        std::vector<std::uint32_t>& own = numbers_[v.primitive];
+        if (own.size() <= v.vertex) own.resize(v.vertex + 1, unnumbered);
+        if (own[v.vertex] != unnumbered) continue;
+        own[v.vertex] = 0;
+        used.push_back(v);
+      }
+    }
+    std::sort(used.begin(), used.end());
+    for (std::uint32_t i = 0; i < used.size(); ++i) numbers_[used[i].primitive][used[i].vertex] = i;
+    return used;
   }
 
   /// The elements of `used`, byte for byte, as an accessor of its own.
@@ -297,6 +315,8 @@ class Writer {
   const json originals_;  ///< the accessors as they came
   std::set<std::size_t> free_accessors_, free_views_;
   std::map<std::size_t, std::string> new_bytes_;  ///< by buffer view
+  /// By primitive and vertex, of the node that is written: its number there. Between nodes, unnumbered.
+  std::vector<std::vector<std::uint32_t>> numbers_;
 };
 
 }  // namespace

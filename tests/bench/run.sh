@@ -44,9 +44,11 @@ for program in abstraction evaluate propagate prove ablation; do
 done
 "$tool" gallery "$output" --wall 100
 measure node "$root/tests/bench/core.bench.mjs" "$output"/shelf_wall_100.glb
+measure node "$root/tests/bench/split.bench.mjs"
 measure node --expose-gc "$root/tests/bench/program.bench.mjs"
 measure node "$root/tests/bench/runtime.bench.mjs"
 measure node "$root/tests/bench/batch.bench.mjs"
+measure node "$root/tests/bench/ranking.bench.mjs"
 measure node "$root/web/runtime/build.mjs" --figures
 measure node "$root/web/tools/sizes.mjs" --figures
 if ! has chromium && ! has google-chrome; then need "chromium chromium"; fi

@@ -100,6 +100,33 @@ describe('parsel', () => {
     expect(readJson('program.json').layers[0].statements.length).toBeGreaterThan(3);
   });
 
+  it('inspect and propagate heed corrections, and refuse those of no part and for a shape that is written', () => {
+    const { parts } = runJson('inspect', 'chair.glb');
+    const key = (wanted: string) => `node:${parts.find(({ id }: { id: string }) => id === wanted).node}/0`;
+    const legs = parts.filter(({ id }: { id: string }) => id.startsWith('leg_'));
+    const declare = (other: string) =>
+      write('own.json', {
+        format: 'parsel/corrections',
+        version: 1,
+        corrections: [{ kind: 'apart', parts: [key('seat'), other] }],
+      });
+    declare(key(legs[0].id));
+    const { relations } = runJson('inspect', 'chair.glb', '--corrections', 'own.json');
+    const joints = relations.filter(
+      ({ kind, parts: pair }: { kind: string; parts: string[] }) =>
+        kind !== 'reflection' && pair.includes('seat') && pair.some((id) => id.startsWith('leg_')),
+    );
+    expect(joints).toEqual([]);
+    run('inspect', 'chair.glb', '--corrections', 'own.json', '-o', 'corrected.json');
+    const corrected = runJson('propagate', 'chair.glb', 'edit.json', '--corrections', 'own.json');
+    expect(corrected).toEqual(runJson('propagate', 'corrected.json', 'edit.json'));
+    expect(corrected).not.toEqual(readJson('program.json'));
+    const written = refusal('propagate', 'corrected.json', 'edit.json', '--corrections', 'own.json');
+    expect(written).toMatchObject({ code: 1, text: expect.stringContaining('cannot be corrected any more') });
+    declare('node:999/0');
+    expect(refusal('inspect', 'chair.glb', '--corrections', 'own.json').text).toContain('node:999/0');
+  });
+
   it('check accepts the program with its trace, and not another amount', () => {
     expect(runJson('check', 'chair.glb', 'program.json', '--trace', 'trace.json').findings).toEqual([]);
     const spoilt = readJson('program.json');

@@ -56,6 +56,14 @@ TEST_CASE("no two offers are the same edit, none is refused by the shape") {
   }
 }
 
+TEST_CASE("rows are called as their labels call them, words apart and sides in") {
+  auto parts = fixture::slat_chair(5);
+  for (auto& part : parts) {
+    if (part.name.rfind("slat", 0) == 0) part.name = "back slat";
+  }
+  CHECK(titles(fixture::shape(parts)).count("Back slat count") == 1);
+}
+
 TEST_CASE("a model whose labels say nothing offers what its geometry tells") {
   auto parts = fixture::slat_chair(5);
   int number = 0;

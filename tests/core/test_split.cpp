@@ -198,6 +198,97 @@ TEST_CASE("a fused model comes apart where it is creased inwards") {
   CHECK(matched({{{-1, -0.2, -1}, {1, 0.2, 1}}, {{-0.2, 0.2, -0.2}, {0.2, 2.2, 0.2}}}, all_bounds(split->glb)) == 2);
 }
 
+TEST_CASE("what bounds nothing by itself belongs to what is behind it") {
+  SUBCASE("a hollow, also when it lies within another part's box") {
+    fixture::Mesh hollow = fixture::box({0, 0, 0}, {1, 1, 1});
+    for (auto& t : hollow.triangles) std::swap(t[1], t[2]);
+    const fixture::Mesh inner = fixture::box({0.1, 0, 0}, {0.2, 0.2, 0.2});
+    const std::string glb =
+        fixture::document({{"", both(both(fixture::box({0, 0, 0}, {2, 2, 2}), hollow), inner)}}).glb();
+    const auto split = split_model(glb, {}, {SplitMethod::components, 1});
+    REQUIRE(split.ok());
+    CHECK(split->parts == 2);
+    CHECK(matched({{{-1, -1, -1}, {1, 1, 1}}, {{0, -0.1, -0.1}, {0.2, 0.1, 0.1}}}, all_bounds(split->glb)) == 2);
+    const auto model = import_gltf(split->glb);
+    REQUIRE(model.ok());
+    std::vector<std::size_t> sizes;
+    for (const PartMesh& mesh : model->meshes) sizes.push_back(mesh.triangles.size());
+    std::sort(sizes.begin(), sizes.end());
+    CHECK(sizes == std::vector<std::size_t>{12, 24});
+  }
+  SUBCASE("what is inside out stands by itself") {
+    fixture::Mesh turned = fixture::box({0, 0, 0}, {1, 1, 1});
+    for (auto& t : turned.triangles) std::swap(t[1], t[2]);
+    CHECK(parts_of(fixture::document({{"", both(turned, fixture::box({5, 0, 0}, {1, 1, 1}))}}).glb(),
+                   {SplitMethod::components, 1}) == 2);
+  }
+  SUBCASE("the inner faces of a drawer") {
+    // A box without its top (corners 2, 3, 6, 7) in another, and a rim between them.
+    fixture::Mesh drawer = fixture::box({0, 0, 0}, {2, 1, 3}), inner = fixture::box({0, 0.1, 0}, {1.8, 0.8, 2.8});
+    for (auto& t : inner.triangles) std::swap(t[1], t[2]);
+    drawer = both(drawer, inner);
+    std::erase_if(drawer.triangles, [](const auto& t) {
+      return std::all_of(t.begin(), t.end(), [](auto v) { return (v % 8) == 2 || v % 8 == 3 || v % 8 >= 6; });
+    });
+    const std::array<std::uint32_t, 4> rim = {2, 6, 7, 3};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::uint32_t a = rim[i], b = rim[(i + 1) % 4];
+      drawer.triangles.push_back({a, b, b + 8});
+      drawer.triangles.push_back({a, b + 8, a + 8});
+    }
+    CHECK(parts_of(fixture::document({{"", drawer}}).glb(), {SplitMethod::regions, 1}) == 1);
+  }
+}
+
+TEST_CASE("one that is fused but for small things comes apart along its creases") {
+  // Three screws and a T: four components, one of which has nearly all of the surface.
+  fixture::Mesh fused = both(fixture::box({0, 0, 0}, {2, 0.4, 2}), fixture::box({0, 1.2, 0}, {0.4, 2, 0.4}));
+  std::erase_if(fused.triangles, [](const auto& t) {
+    const auto lies = [&](auto... set) {
+      return std::all_of(t.begin(), t.end(), [&](auto v) { return ((v == set) || ...); });
+    };
+    return lies(2u, 3u, 6u, 7u) || lies(8u, 9u, 12u, 13u);
+  });
+  const std::array<std::uint32_t, 4> outer = {2, 6, 7, 3}, inner = {8, 12, 13, 9};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t next = (i + 1) % 4;
+    fused.triangles.push_back({outer[i], outer[next], inner[next]});
+    fused.triangles.push_back({outer[i], inner[next], inner[i]});
+  }
+  for (const double x : {-0.7, 0.0, 0.7}) fused = both(fused, fixture::box({x, 0.25, 0.8}, {0.1, 0.1, 0.1}));
+  const auto split = split_model(fixture::document({{"", fused}}).glb());
+  REQUIRE(split.ok());
+  CHECK(split->by == SplitMethod::regions);
+  CHECK(split->parts == 5);
+}
+
+TEST_CASE("what is creased all over is left whole, unless creases are asked for") {
+  // A floor of pyramids that stand in a grid, each bounded by creases.
+  fixture::Mesh floor;
+  constexpr std::uint32_t across = 16;
+  for (std::uint32_t z = 0; z <= across; ++z) {
+    for (std::uint32_t x = 0; x <= across; ++x) floor.positions.push_back(Vec3(x, 0, z));
+  }
+  for (std::uint32_t z = 0; z < across; ++z) {
+    for (std::uint32_t x = 0; x < across; ++x) {
+      const std::uint32_t first = z * (across + 1) + x, below = first + across + 1;
+      const auto top = static_cast<std::uint32_t>(floor.positions.size());
+      floor.positions.push_back(Vec3(x + 0.5, 0.8, z + 0.5));
+      floor.triangles.insert(
+          floor.triangles.end(),
+          {{first, below, top}, {below, below + 1, top}, {below + 1, first + 1, top}, {first + 1, first, top}});
+    }
+  }
+  const std::string glb = fixture::document({{"", floor}}).glb();
+  const auto split = split_model(glb);
+  REQUIRE(split.ok());
+  CHECK(split->parts == 1);
+  CHECK(split->by == SplitMethod::components);
+  REQUIRE(split->warnings.size() == 1);
+  CHECK(split->warnings[0].text.find("creased all over: cut it by hand") != std::string::npos);
+  CHECK(parts_of(glb, {SplitMethod::regions, 0.5}) == across * across);
+}
+
 TEST_CASE("faces of one solid that are primitives of their own become one part") {
   fixture::Document d = fixture::document({{"", fixture::box({0, 0, 0}, {1, 2, 3})}});
   nlohmann::json& primitives = d.json["meshes"][0]["primitives"];
@@ -243,8 +334,28 @@ TEST_CASE("what cannot be split is refused in words, and soon") {
     }
     const auto split = split_model(fixture::document({{"", dust}}).glb());
     REQUIRE(!split.ok());
-    CHECK(split.error().cause.find("2000 pieces") != std::string::npos);
-    CHECK(split.error().fix.find("coarser") != std::string::npos);
+    CHECK(split.error().cause.find("2000 pieces, however coarse") != std::string::npos);
+    CHECK(split.error().fix.find("by hand") != std::string::npos);
+  }
+  SUBCASE("thousands of small pieces on three large ones go to these, unless a method is named") {
+    fixture::Mesh mesh;
+    for (const double x : {0.0, 30.0, 60.0}) mesh = both(mesh, fixture::box({x, -1, 0}, {20, 1, 60}));
+    for (std::uint32_t i = 0; i < 2'100; ++i) {
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      const Vec3 at(30.0 * (i % 3) + i / 3 % 20 - 10.0, -0.5, 1.5 * (i / 60) - 25.0);
+      mesh.positions.insert(mesh.positions.end(), {at, at + Vec3(0.9, 0, 0), at + Vec3(0, 0.9, 0.9)});
+      mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    const std::string glb = fixture::document({{"", mesh}}).glb();
+    const auto split = split_model(glb);
+    REQUIRE(split.ok());
+    CHECK(split->parts == 3);
+    CHECK(split->joined == 2'100);
+    REQUIRE(split->warnings.size() == 1);
+    CHECK(split->warnings[0].text.find("split coarser") != std::string::npos);
+    const auto named = split_model(glb, {}, {SplitMethod::components, 0.5});
+    REQUIRE(!named.ok());
+    CHECK(named.error().fix.find("coarser") != std::string::npos);
   }
   SUBCASE("a number that is none") {
     const std::string glb = fixture::document({{"", fixture::box({0, 0, 0}, {1, 1, 1})}}).glb();

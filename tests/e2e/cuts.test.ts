@@ -110,3 +110,56 @@ describe('a program that cuts', () => {
     expect(Math.abs(volumeOf(mesh) / volume - 1)).toBeLessThan(1e-4);
   });
 });
+
+describe('the pictures of variations of a program that cuts', () => {
+  const frame = `// frame
+difference() {
+  // frame
+  cube([100, 10, 100]);
+  // window
+  translate([20, -1, 20]) cube([60, 12, 60]);
+}
+`;
+  const variations = {
+    format: 'parsel/variations',
+    version: 1,
+    variations: [
+      {
+        name: 'low',
+        bounds: {
+          window: [
+            [20, 80],
+            [4, 24],
+            [-11, 1],
+          ],
+        },
+      },
+      { name: 'blind', absent: ['window'] },
+    ],
+  };
+  /** How much the middle of each picture covers, 0 … 255. */
+  const middles = () =>
+    page.locator('.strip img').evaluateAll((images) =>
+      (images as HTMLImageElement[]).map((image) => {
+        const canvas = Object.assign(document.createElement('canvas'), { width: 1, height: 1 });
+        const context = canvas.getContext('2d');
+        context?.drawImage(image, -image.naturalWidth / 2, -image.naturalHeight / 2);
+        return context?.getImageData(0, 0, 1, 1).data[3];
+      }),
+    );
+
+  it('are cut as each of them is', async () => {
+    ({ page, complaints } = await openPage(site.browser, `${site.url}?debug`, {}, withoutGallery));
+    await page.waitForFunction(() => 'parsel' in globalThis && parsel.isReady());
+    const beside = Buffer.from(JSON.stringify(variations));
+    await pick(page, [
+      { name: 'frame.scad', mimeType: 'text/plain', buffer: Buffer.from(frame) },
+      { name: 'frame.variations.json', mimeType: 'application/json', buffer: beside },
+    ]);
+    await page.waitForFunction(() => parsel.stage()?.isShown());
+    await expect.poll(middles).toEqual([0, 255, 255]); // as drawn, low, blind
+    await page.screenshot({ path: `${outputFolder}/cuts-variations.png` });
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+});

@@ -4,6 +4,7 @@ import type { Page } from 'playwright-core';
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
+import { stool } from './fixture';
 import { download, openPage, pick, saved, stillPicture, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
@@ -18,6 +19,50 @@ const slider = (name: string) => page.getByRole('slider', { name, exact: true })
 const metres = (text: string | null) =>
   Number.parseFloat(text ?? '') / (text?.endsWith('mm') ? 1000 : text?.endsWith('cm') ? 100 : 1);
 const reads = async (name: string) => metres(await slider(name).getAttribute('aria-valuetext'));
+
+const file = (name: string, text: string) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+const said = () => page.locator('.status-line').getByRole('status').textContent();
+
+describe('what reads CAD programs', () => {
+  const isModuleUrl = /parsel_cad[^/]*\.wasm/;
+  const block = [file('block.scad', '// block\ncube([3, 4, 5]);\n')];
+  const fetched: string[] = [];
+  beforeAll(async () => {
+    ({ page, complaints } = await openPage(site.browser, `${site.url}?debug`, {}, withoutGallery));
+    page.on('request', (request) => isModuleUrl.test(request.url()) && fetched.push(request.url()));
+    await ready();
+  });
+
+  it('is not fetched for other models; says what to do where it cannot be, and can be cancelled', async () => {
+    await pick(page, [{ name: 'stool.glb', mimeType: 'model/gltf-binary', buffer: stool }]);
+    await shown();
+    expect(fetched).toEqual([]);
+    await page.route(isModuleUrl, (route) => route.abort());
+    await pick(page, block);
+    await expect
+      .poll(() => page.getByRole('alert').textContent())
+      .toMatch(/What reads CAD programs could not be fetched .*look whether there is a network, and open it again/);
+    await page.unroute(isModuleUrl);
+    await page.route(isModuleUrl, () => {}); // never answers
+    await pick(page, block);
+    await expect.poll(said).toMatch(/fetching what reads CAD programs/);
+    await page.getByRole('button', { name: 'Cancel' }).click();
+    await expect.poll(said).toBe('');
+    expect(await page.evaluate(() => parsel.document().model?.shape.name)).toBe('stool');
+    await page.unroute(isModuleUrl);
+    expect(complaints.filter((text) => !/ERR_FAILED/.test(text))).toEqual([]);
+  });
+
+  it('is fetched with the first program, once', async () => {
+    fetched.length = 0;
+    for (const name of ['block', 'brick']) {
+      await pick(page, [file(`${name}.scad`, '// block\ncube([3, 4, 5]);\n')]);
+      await expect.poll(() => page.evaluate(() => parsel.document().model?.shape.name)).toBe(name);
+    }
+    expect(fetched).toHaveLength(1);
+    await page.context().close();
+  });
+});
 
 describe('a CAD program', () => {
   beforeAll(async () => {
@@ -111,7 +156,6 @@ describe('a CAD program', () => {
   });
 
   it('of a person: opens by the picker, and is refused by its line', async () => {
-    const file = (name: string, text: string) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
     const stool =
       '// seat\ntranslate([-20, -20, 40]) cube([40, 40, 4]);\nmodule leg() cube([4, 4, 40]);\nfor (x = [-20, 16], y = [-20, 16]) translate([x, y, 0]) leg();\n';
     await pick(page, [file('stool.scad', stool)]);

@@ -25,7 +25,7 @@ function stop(server: Server): void {
 }
 
 describe('without a network', () => {
-  it('the page opens again, with its gallery, its core and its decoders', async () => {
+  it('the page opens again, with its gallery, its core, its decoders and what reads CAD programs', async () => {
     const { url, server } = await serve();
     const { page, complaints } = await openPage(site.browser, `${url}?debug`, { serviceWorkers: 'allow' });
     await page.locator('.card').first().waitFor(); // the first model of the gallery, with its edit
@@ -41,6 +41,9 @@ describe('without a network', () => {
     await expect.poll(() => page.evaluate(() => parsel.document().layers.length)).toBe(0);
     await pick(page, model(await compress(stool, 'Draco')));
     await expect.poll(() => page.evaluate(() => parsel.document().model?.files.name)).toBe('stool');
+    const scad = { name: 'block.scad', mimeType: 'text/plain', buffer: Buffer.from('// block\ncube([3, 4, 5]);\n') };
+    await pick(page, [scad]);
+    await expect.poll(() => page.evaluate(() => parsel.document().model?.shape.name)).toBe('block');
     expect(complaints).toEqual([]);
     await page.context().close();
   });

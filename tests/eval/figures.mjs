@@ -139,7 +139,7 @@ const numbers = [
     `${bench('page', 'cold start to a moving slider', 'ms', 2, 1e-3)} s (${bench('page', 'cold start to a moving slider', 'ms_least', 2, 1e-3)} s)`,
     'same',
   ],
-  ['WebAssembly download, brotli', '1.4 MB', `${bench('page', 'WebAssembly module', 'kB_brotli', 2, 1e-3)} MB`, 'same'],
+  ['WebAssembly download, brotli', '1.3 MB', `${bench('page', 'WebAssembly module', 'kB_brotli', 2, 1e-3)} MB`, 'same'],
   [
     'JavaScript before anything shows, gzip',
     '350 kB',

@@ -18,11 +18,11 @@ import { unite } from '../../web/src/solid/unite';
 import { cross, type Vec } from '../../web/src/solid/vectors';
 import { boundsOf, openEdges, volumeOf, weld } from '../../web/src/solid/weld';
 import type { MethodResult } from '../../web/src/worker/protocol';
-import { call, loadModule } from './module';
+import { call, loadWithCad } from './module';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const manifold = await loadManifold(require.resolve('manifold-3d/manifold.wasm'));
-const core = await loadModule();
+const core = await loadWithCad();
 const folder = mkdtempSync(join(tmpdir(), 'parsel-cuts-'));
 afterAll(() => rmSync(folder, { recursive: true }));
 

@@ -19,14 +19,14 @@ import { createSession } from '../../web/src/session/session';
 import { readSaved, save } from '../../web/src/share/saved';
 import { cadCore, openProgram, options, programText } from './cad_fixture';
 import { moving } from './fake_core';
-import { type LoadedModule, loadModule } from './module';
+import { type LoadedModule, loadWithCad } from './module';
 
 const programs = ['bottle', 'camera', 'car', 'chair', 'table'] as const;
 
 let module: LoadedModule;
 let core: ModelCore;
 beforeAll(async () => {
-  module = await loadModule();
+  module = await loadWithCad();
   core = cadCore(module);
 });
 

@@ -7,12 +7,12 @@ import type { Source } from '../../web/src/llm/source';
 import { createKinds } from '../../web/src/session/kinds';
 import type { ModelCore } from '../../web/src/session/model_core';
 import { cadCore, openProgram } from './cad_fixture';
-import { type LoadedModule, loadModule } from './module';
+import { type LoadedModule, loadWithCad } from './module';
 
 let module: LoadedModule;
 let core: ModelCore;
 beforeAll(async () => {
-  module = await loadModule();
+  module = await loadWithCad();
   core = cadCore(module);
 });
 
@@ -76,7 +76,7 @@ describe('kinds', () => {
     expect(first?.state).toMatchObject({ votes: 3, refused: 0, variation: { name: 'flask', absent: ['cap'] } });
     if (first?.state.kind !== 'drawn') throw new Error('not drawn');
     expect(first.state.agreed).toBe(first.state.constraints - 1); // the neck is no longer as high as the shoulder was
-    expect(new TextDecoder().decode(first.state.picture.slice(0, 4))).toBe('glTF');
+    expect(new TextDecoder().decode(first.state.picture.glb.slice(0, 4))).toBe('glTF');
     expect(kinds.asked.value?.spent).toEqual({ calls: 21, tokens: { input: 2100, output: 210 } });
 
     const before = names();

@@ -4,12 +4,12 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import { readRecordings } from '../../web/tools/prompts.mjs';
 import { implied, measureFamilies, readWanted, score } from '../eval/families.mjs';
 import { measureGalleryNames } from '../eval/names.mjs';
-import { loadModule } from './module';
+import { loadWithCad } from './module';
 
 type Core = Parameters<typeof measureFamilies>[0];
 let core: Core;
 beforeAll(async () => {
-  const module = await loadModule();
+  const module = await loadWithCad();
   core = (method, parameters, buffers = []) => {
     const reply = module.invoke(method, JSON.stringify(parameters), buffers, null);
     const { result, error } = JSON.parse(reply.json) as { result: unknown; error?: { cause: string } };

@@ -1,14 +1,15 @@
-// Loads the WebAssembly module under Node, as the worker does in the page.
+// Loads the WebAssembly modules under Node, as the workers do in the page.
 import { readFile } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
-import createModule, { type ParselModule } from 'parsel-module/parsel.mjs';
+import type { CreateModule, ParselModule } from 'parsel-module';
+import createCore from 'parsel-module/parsel.mjs';
+import createCad from 'parsel-module/parsel_cad.mjs';
 
 export type LoadedModule = ParselModule;
 
-const wasmPath = fileURLToPath(new URL('../../build/wasm/wasm/parsel.wasm', import.meta.url));
-
-export async function loadModule(): Promise<LoadedModule> {
-  const compiled = await WebAssembly.compile(await readFile(wasmPath));
+async function load(createModule: CreateModule, name: string): Promise<LoadedModule> {
+  const path = fileURLToPath(new URL(`../../build/wasm/wasm/${name}.wasm`, import.meta.url));
+  const compiled = await WebAssembly.compile(await readFile(path));
   return createModule({
     instantiateWasm(imports, receive) {
       const instance = new WebAssembly.Instance(compiled, imports);
@@ -18,6 +19,20 @@ export async function loadModule(): Promise<LoadedModule> {
     print: () => {},
     printErr: () => {},
   });
+}
+
+/** The module that the page begins with. */
+export const loadModule = () => load(createCore, 'parsel');
+export const loadCadModule = () => load(createCad, 'parsel_cad');
+
+/** Both as one. */
+export async function loadWithCad(): Promise<LoadedModule> {
+  const [core, cad] = await Promise.all([loadModule(), loadCadModule()]);
+  const ofCad = new Set(cad.methods());
+  return {
+    invoke: (method, ...rest) => (ofCad.has(method) ? cad : core).invoke(method, ...rest),
+    methods: () => [...core.methods(), ...cad.methods()],
+  };
 }
 
 /** The result and the buffers of a call; an error value is thrown. */

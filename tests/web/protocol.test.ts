@@ -4,8 +4,8 @@ import { readFile } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import * as v from 'valibot';
 import { beforeAll, describe, expect, it } from 'vitest';
-import { errorSchema, type Method, methodSchemas } from '../../web/src/worker/protocol';
-import { type LoadedModule, loadModule } from './module';
+import { errorSchema, type Method, methodSchemas, methodsOf } from '../../web/src/worker/protocol';
+import { type LoadedModule, loadCadModule, loadModule } from './module';
 
 let core: LoadedModule;
 beforeAll(async () => {
@@ -18,8 +18,10 @@ function invoke(method: string, parameters: unknown, buffers: Uint8Array[] = [])
 }
 
 describe('the boundary between the page and the core', () => {
-  it('has the same methods on both sides', () => {
-    expect([...core.methods()].sort()).toEqual(Object.keys(methodSchemas).sort());
+  it('has the same methods on both sides, in the same modules', async () => {
+    expect([...core.methods()].sort()).toEqual(Object.keys(methodsOf.core).sort());
+    expect([...(await loadCadModule()).methods()].sort()).toEqual(Object.keys(methodsOf.cad).sort());
+    expect(Object.keys(methodSchemas)).toHaveLength(core.methods().length + Object.keys(methodsOf.cad).length);
   });
 
   const examples: Partial<Record<Method, unknown>> = {
@@ -144,6 +146,30 @@ describe('the boundary between the page and the core', () => {
     const relabelled = open({ [`node:${seat?.node}/0`]: 'lid' }).result?.shape.parts;
     expect(relabelled?.find(({ node }) => node === seat?.node)?.id).toBe('lid');
     expect(open({ 'node:999': 'lid' }).error?.place).toBe('node:999');
+  });
+
+  it('opens a model with a joint declared away, and refuses what is no correction', () => {
+    const { message, buffers } = invoke('gallery', {});
+    const { models } = (message as { result: { models: { id: string }[] } }).result;
+    const file = buffers[models.findIndex(({ id }) => id === 'chair')] as Uint8Array;
+    type Opened = {
+      result?: { shape: { parts: { id: string; node: number }[]; relations: { kind: string; parts: string[] }[] } };
+      error?: { place: string };
+    };
+    const open = (corrections: readonly unknown[]) =>
+      invoke('open', { name: 'chair', external: [], corrections }, [file]).message as Opened;
+    const joint = ({ result }: Opened) =>
+      result?.shape.relations.find(
+        ({ kind, parts }) => kind !== 'reflection' && parts.includes('seat') && parts.includes('leg_front_left'),
+      );
+    const found = open([]);
+    expect(joint(found)).toBeDefined();
+    const keys = ['seat', 'leg_front_left'].map(
+      (wanted) => `node:${found.result?.shape.parts.find(({ id }) => id === wanted)?.node}/0`,
+    );
+    expect(joint(open([{ kind: 'apart', parts: keys }]))).toBeUndefined();
+    expect(open([{ kind: 'glued', parts: keys }]).error?.place).toBe('/0/kind');
+    expect(open([{ kind: 'apart', parts: ['node:999/0', keys[0]] }]).error?.place).toBe('node:999/0');
   });
 
   it('answers with the version of the project', async () => {

@@ -12,12 +12,12 @@ import {
   renderRequests,
 } from '../../web/tools/prompts.mjs';
 import { readReplies, variantPrompts, variants } from '../eval/variants.mjs';
-import { loadModule } from './module';
+import { loadWithCad } from './module';
 
 type Core = Parameters<typeof renderRequests>[0];
 let core: Core;
 beforeAll(async () => {
-  const module = await loadModule();
+  const module = await loadWithCad();
   core = (method, parameters, buffers = []) => {
     const reply = module.invoke(method, JSON.stringify(parameters), buffers, null);
     const { result, error } = JSON.parse(reply.json) as { result: unknown; error?: { cause: string } };

@@ -2,7 +2,8 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { loadCore, root } from './core.mjs';
-import { namelessIds, withoutNames } from './nameless.mjs';
+import { fuse } from './fuse.mjs';
+import { fusedIds, namelessIds, withoutNames } from './nameless.mjs';
 
 const folder = join(root, 'web', 'public', 'gallery');
 const core = await loadCore();
@@ -17,6 +18,11 @@ const nameless = namelessIds.map((id) => {
   writeFileSync(join(folder, `${id}_nameless.glb`), withoutNames(buffers[index]));
   return { id: `${id}_nameless`, title: `${result.models[index].title}, nameless` };
 });
+for (const id of fusedIds) {
+  const index = result.models.findIndex((model) => model.id === id);
+  writeFileSync(join(folder, `${id}_fused.glb`), (await fuse(buffers[index])).glb);
+  nameless.push({ id: `${id}_fused`, title: `${result.models[index].title}, fused into one piece` });
+}
 writeFileSync(join(folder, 'nameless.json'), JSON.stringify(nameless));
 
 // The CAD programs, each with its variations and what it makes: the thumbnails are drawn from that.

@@ -2,7 +2,7 @@
 import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { loadCore, root } from './core.mjs';
-import { namelessIds } from './nameless.mjs';
+import { fusedIds, namelessIds } from './nameless.mjs';
 import { compare, readRecordings, renderAll } from './prompts.mjs';
 
 const folder = join(root, 'web', 'public', 'recordings');
@@ -19,6 +19,7 @@ const ids = [
   ...core('gallery', {}).result.models.map(({ id }) => id),
   ...core('cad_gallery', {}).result.programs.map(({ id }) => `${id}_program`),
   ...namelessIds.map((id) => `${id}_nameless`),
+  ...fusedIds.map((id) => `${id}_fused`),
 ];
 for (const id of ids) {
   const own = offered.filter(({ model }) => model === id);

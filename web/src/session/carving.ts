@@ -5,7 +5,7 @@ import type { CarveStep, PartKey, Plane } from '../carve/steps';
 import type { Shape, Vec3 } from '../program/types';
 import { m, plural, t } from '../texts/texts';
 import { type CarvedFiles, type Carver, carved } from './carve';
-import { type Document, type OpenModel, partKey } from './document';
+import { type Corrections, type Document, noCorrections, type OpenModel, partKey, withCorrections } from './document';
 import type { ModelCore } from './model_core';
 import { prepare } from './open';
 import { document, replaceDocument, run, say, selectAll } from './session';
@@ -45,10 +45,11 @@ export async function carveModel(core: ModelCore, step: CarveStep, carve: Carver
   const made = await run(t(doing[step.kind]), async (options) => {
     const found = await carve(model.files, step, options);
     const labels = new Map([...model.labels].map(([key, label]) => [newKey(found, key), label]));
-    const shape = await core.open(found.files, options, labels);
+    const corrections = correctionsAfter(model, step, found);
+    const shape = await core.open(found.files, options, labels, corrections);
     await prepare(found.files);
     options.signal.throwIfAborted();
-    return { found, model: { ...model, files: found.files, shape, labels } };
+    return { found, model: withCorrections({ ...model, files: found.files, shape, labels }, corrections) };
   });
   if (made === null || document.peek().model !== model) return false;
   const { found } = made;
@@ -71,6 +72,18 @@ const openWords = (names: readonly string[]): string =>
 
 const newKey = ({ moved }: Pick<CarvedFiles, 'moved'>, key: PartKey): PartKey =>
   moved.find(([from]) => from === key)?.[1] ?? key; // parts of one node: few
+
+/** Those between parts that the step leaves alone. */
+function correctionsAfter(
+  { corrections = noCorrections }: OpenModel,
+  step: CarveStep,
+  found: CarvedFiles,
+): Corrections {
+  const changed: readonly PartKey[] = step.kind === 'divide' ? [step.part] : step.kind === 'place' ? [] : step.parts;
+  return corrections
+    .filter(({ parts }) => !parts.some((key) => changed.includes(key)))
+    .map(({ kind, parts: [a, b] }) => ({ kind, parts: [newKey(found, a), newKey(found, b)] }));
+}
 
 /** What was said of the parts that are still there. */
 function onto(document: Document, model: OpenModel, found: CarvedFiles): Document {

@@ -17,10 +17,31 @@ export interface OpenModel {
   readonly shape: Shape;
   /** Labels given here in place of the file's own, by partKey(). */
   readonly labels: Labels;
+  /** Joints and mirror images put right by hand; absent: they are as they were found. */
+  readonly corrections?: Corrections;
 }
 
 export type Labels = ReadonlyMap<string, string>;
 export const noLabels: Labels = new Map();
+
+/** What two parts are to each other, whatever was found in the file: core/shape/corrections.h. */
+export const correctionKinds = ['joined', 'loose', 'apart', 'mirrored', 'unmirrored'] as const;
+export interface Correction {
+  readonly kind: (typeof correctionKinds)[number];
+  /** By partKey(). */
+  readonly parts: readonly [string, string];
+}
+export type Corrections = readonly Correction[];
+export const noCorrections: Corrections = [];
+
+/** Whether labels, joints and mirror images are those of the file: answers that were recorded are about these. */
+export const isAsFound = ({ labels, corrections = noCorrections }: Pick<OpenModel, 'labels' | 'corrections'>) =>
+  labels.size === 0 && corrections.length === 0;
+
+/** The model with other corrections. */
+export function withCorrections({ corrections: _, ...model }: OpenModel, corrections: Corrections): OpenModel {
+  return corrections.length === 0 ? model : { ...model, corrections };
+}
 
 /** What names a real part whatever its label and id are. */
 export const partKey = ({ node, primitive }: { node: number; primitive: number }) => `node:${node}/${primitive}`;

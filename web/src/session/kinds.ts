@@ -7,8 +7,9 @@ import { AskError } from '../llm/ask_error';
 import type { Source } from '../llm/source';
 import { askVotes } from '../llm/votes';
 import { t } from '../texts/texts';
+import { type CadPicture, picturesOf } from './cad_pictures';
 import type { OpenModel } from './document';
-import type { NamedVariation } from './family_state';
+import type { FamilySource, NamedVariation, Variations } from './family_state';
 import type { ModelCore } from './model_core';
 import type { Spent } from './propose';
 import type { Session } from './session';
@@ -21,8 +22,7 @@ export interface Drawn {
   readonly kind: 'drawn';
   /** One entry of parsel/variations. */
   readonly variation: NamedVariation;
-  /** A GLB of it. */
-  readonly picture: Uint8Array;
+  readonly picture: CadPicture;
   /** Of the constraints of the program between parts that it has: how many most answers keep. */
   readonly agreed: number;
   readonly constraints: number;
@@ -151,12 +151,14 @@ export function createKinds({ session, models, sourceOf }: KindsParts): KindsAct
       const read = await ask(core, { cad, task: 'variation', kind: name }, source, run, show);
       const [variation] = (read.variation?.variations ?? []) as unknown as readonly NamedVariation[];
       if (read.variation === undefined || variation === undefined) throw new Error(t`The answers hold no numbers`);
-      const alone = { cad, variations: read.variation, choices: {} };
-      const { pictures } = await core.findFamily(alone, { signal: run.signal });
+      const alone = { cad, variations: read.variation as unknown as Variations, choices: {} };
+      const family: FamilySource = { ...(await core.findFamily(alone, { signal: run.signal })), ...alone };
+      const [, picture] = picturesOf(model.files, family);
+      if (picture === undefined) throw new Error(t`The answers hold no numbers`);
       setCard(run.stop, name, {
         kind: 'drawn',
         variation,
-        picture: pictures[0] ?? new Uint8Array(),
+        picture,
         agreed: read.agreed ?? 0,
         constraints: read.constraints ?? 0,
         votes: read.votes,

@@ -4,9 +4,9 @@
 import type { Program, Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
 import { t } from '../texts/texts';
-import type { CallOptions, CoreClient, CoreState } from '../worker/client';
+import type { CallOptions, Calls, CoreState } from '../worker/client';
 import type { Inference, MethodResult, Parameters, PlainInference, Replies } from '../worker/protocol';
-import { type EditInput, type Labels, noLabels, type OpenModel } from './document';
+import { type Corrections, type EditInput, type Labels, noCorrections, noLabels, type OpenModel } from './document';
 import type { Trace } from './trace';
 
 export interface Exported {
@@ -43,8 +43,8 @@ export interface SplitFiles {
 type Options = Pick<CallOptions, 'signal' | 'onProgress'>;
 
 export interface ModelCore {
-  /** Reads and abstracts a model, with labels that take the place of the file's own. */
-  open(files: ModelFiles, options: Options, labels?: Labels): Promise<Shape>;
+  /** Reads and abstracts a model, with labels that take the place of the file's own, and corrections of what is found. */
+  open(files: ModelFiles, options: Options, labels?: Labels, corrections?: Corrections): Promise<Shape>;
   /** The files with their parts told apart, and what was left whole, in sentences. */
   split(files: ModelFiles, how: Parameters<'split'>, options: Options): Promise<SplitFiles>;
   /** One layer, from a seed edit. */
@@ -96,26 +96,34 @@ export interface ModelCore {
 }
 
 /** The model that calls are about is told to the core with each of them; the client sees to it that it is only told anew. */
-export function modelCore(client: CoreClient): ModelCore {
-  const states = new WeakMap<ModelFiles, Map<Labels, CoreState<'open'>>>();
-  const stateOf = ({ files, labels }: Pick<OpenModel, 'files' | 'labels'>): CoreState<'open'> => {
-    const known = states.get(files) ?? new Map<Labels, CoreState<'open'>>();
+export function modelCore(client: Calls): ModelCore {
+  const states = new WeakMap<ModelFiles, Map<string, CoreState<'open'>>>();
+  const stateOf = ({
+    files,
+    labels,
+    corrections = noCorrections,
+  }: Pick<OpenModel, 'files' | 'labels' | 'corrections'>): CoreState<'open'> => {
+    const known = states.get(files) ?? new Map<string, CoreState<'open'>>();
     states.set(files, known);
-    const state: CoreState<'open'> = known.get(labels) ?? {
+    const key = JSON.stringify([[...labels], corrections]);
+    const state: CoreState<'open'> = known.get(key) ?? {
       method: 'open',
       parameters: {
         name: files.name,
         external: [...files.external.keys()],
         ...(labels.size > 0 ? { labels: Object.fromEntries(labels) } : {}),
+        ...(corrections.length > 0
+          ? { corrections: corrections.map(({ kind, parts }) => ({ kind, parts: [...parts] })) }
+          : {}),
       },
       buffers: [files.main, ...files.external.values()],
     };
-    known.set(labels, state);
+    known.set(key, state);
     return state;
   };
   return {
-    async open(files, options, labels = noLabels) {
-      const { result } = await client.setUp(stateOf({ files, labels }), options);
+    async open(files, options, labels = noLabels, corrections = noCorrections) {
+      const { result } = await client.setUp(stateOf({ files, labels, corrections }), options);
       return result.shape as unknown as Shape;
     },
     async split(files, how, options) {

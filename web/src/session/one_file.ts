@@ -15,11 +15,13 @@ import type { ModelCore } from './model_core';
 
 /** The work as `parsel/sliders`. Layers that do not fit the shape go along switched off. Throws a FileError. */
 export function slidersOfWork(document: Document, view?: CameraPose): Sliders {
-  const { program, off, hidden, names, labels, view: pose, unit, presets, groups } = save(document, view);
+  const { program, off, hidden, names, labels, corrections, view: pose, unit, presets, groups } = save(document, view);
   const shape = document.model?.shape as Shape; // save() has thrown where there is none
   const resting = program.layers.flatMap((layer, i) => (off.includes(i) || misfit(shape, layer) !== null ? [i] : []));
   const session = Object.fromEntries(
-    Object.entries({ names, labels, view: pose, unit, presets, groups }).filter(([, value]) => value !== undefined),
+    Object.entries({ names, labels, corrections, view: pose, unit, presets, groups }).filter(
+      ([, value]) => value !== undefined,
+    ),
   );
   const sliders = slidersOf(program, shape, { off: resting, hidden, session });
   const together = checkProgram({ ...program, layers: layersOn(sliders) }, shape);

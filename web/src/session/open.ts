@@ -12,11 +12,14 @@ import { decompressed } from './decompress';
 import {
   type Document,
   emptyDocument,
+  isAsFound,
   type Labels,
   type LayerEntry,
   type ModelSource,
+  noCorrections,
   noLabels,
   type OpenModel,
+  withCorrections,
 } from './document';
 import { misfit } from './evaluation';
 import { familyOf, withProgramRead } from './family';
@@ -82,17 +85,18 @@ async function abstract(
     const found = given === null ? taken.found : null;
     const whole = await splitAs(given?.saved.split, await decompressed(taken.files, options), core, options);
     const files = await carvedAs(given?.saved.carved, whole, carved, options);
-    let labels = labelsOf(given ?? found?.work ?? null);
-    let shape = await core.open(files, options, labels);
+    const said = given ?? found?.work ?? null;
+    let [labels, corrections] = [labelsOf(said), said?.saved.corrections ?? noCorrections];
+    let shape = await core.open(files, options, labels, corrections);
     const misfits = found?.misfit(shape) ?? null;
-    if (misfits !== null && labels.size > 0) {
-      labels = noLabels;
-      shape = await core.open(files, options, labels);
+    if (misfits !== null && !isAsFound({ labels, corrections })) {
+      [labels, corrections] = [noLabels, noCorrections];
+      shape = await core.open(files, options);
     }
     const family = await familyOf(core, files, given?.saved.family, options);
     await prepare(files);
     options.signal.throwIfAborted();
-    const model = { files, source, shape, labels };
+    const model = withCorrections({ files, source, shape, labels }, corrections);
     if (isCut(files)) options.onProgress({ step: t`cutting parts`, done: 0, total: 1 });
     const uncut = await firstCuts(model, options.signal);
     if (given !== null) return { model, work: given, family, refused: uncut };
@@ -235,7 +239,9 @@ export async function relabelAll(
   for (const [key, label] of given)
     if (label === null) labels.delete(key);
     else labels.set(key, label);
-  const shape = await run(t`Looking at the parts again`, (options) => core.open(model.files, options, labels));
+  const shape = await run(t`Looking at the parts again`, (options) =>
+    core.open(model.files, options, labels, model.corrections),
+  );
   if (shape === null || document.peek().model !== model) return false;
   const next = carryOver(document.peek(), { ...model, shape, labels });
   replaceDocument(next, step);
@@ -261,7 +267,8 @@ export async function openSaved(core: ModelCore, work: Work, files: FileSet | nu
   const { gallery, sha256 } = saved.model;
   if (files !== null) return openFrom(core, () => modelOf(files), { kind: 'file' }, work);
   const { model } = document.peek();
-  const isAsItWas = saved.labels === undefined && model?.labels.size === 0 && model.files.cad === undefined;
+  const isFound = saved.labels === undefined && saved.corrections === undefined;
+  const isAsItWas = isFound && model !== null && isAsFound(model) && model.files.cad === undefined;
   if (model?.shape.sha256 === sha256 && isAsItWas) return show(model, work, null);
   if (model?.shape.sha256 === sha256) return reopen(core, model.files, model.source, work);
   if (gallery !== undefined) return openGallery(core, gallery, work);

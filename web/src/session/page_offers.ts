@@ -1,7 +1,6 @@
 // What the page's model offers: looked for when a model of one's own is opened that nobody has worked on yet.
 import { effect, untracked } from '@preact/signals';
-import wasmUrl from 'parsel-module/parsel.wasm?url';
-import { startCore } from '../worker/client';
+import { startCore } from '../worker/modules';
 import { models } from './core';
 import { emptyProgram } from './document';
 import { madeBy } from './layers';
@@ -10,7 +9,7 @@ import { createOffers, type Offer } from './offers';
 import { addProgram, document, draft } from './session';
 
 export const { offers, look, stop, drop } = createOffers(async () => {
-  const client = await startCore(wasmUrl);
+  const client = await startCore();
   return { models: modelCore(client), dispose: () => client.dispose() };
 });
 
@@ -29,9 +28,12 @@ export function keepOffer(offer: Offer, value: number): number | null {
 /** A model that has been there for so long (ms) is one that somebody looks at: tabs that a browser brings back come first. */
 const settled = 1500;
 
-/** Looks whenever a fresh model of one's own is there and nobody has begun to work on it; answers how to stop. */
+/**
+ * Looks whenever a fresh model of one's own is there, or is seen with other labels or joints, and nobody has begun to work on
+ * it; answers how to stop.
+ */
 export function lookOnOpening(): () => void {
-  let seen = document.peek().model?.files;
+  let seen = document.peek().model?.shape;
   let waiting: ReturnType<typeof setTimeout> | undefined;
   const lookIfFresh = () => {
     const { model, layers } = document.peek();
@@ -39,8 +41,8 @@ export function lookOnOpening(): () => void {
   };
   const end = effect(() => {
     const { model } = document.value;
-    if (models.value === null || model?.files === seen) return;
-    seen = model?.files;
+    if (models.value === null || model?.shape === seen) return;
+    seen = model?.shape;
     clearTimeout(waiting);
     untracked(stop);
     waiting = setTimeout(lookIfFresh, settled);

@@ -8,7 +8,7 @@ import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
 import { t } from '../texts/texts';
 import { models } from './core';
-import { type OpenModel, partNames } from './document';
+import { isAsFound, type OpenModel, partNames } from './document';
 import { facing, speaksAsSeen } from './facing';
 import { type Said, saidFrom } from './looking';
 import { playOnce } from './play';
@@ -31,12 +31,12 @@ async function questionOf(
     const source = liveSource(currentTarget(), { votes: votesFor('request'), cache: browserCache, afresh });
     return { request: told, title: typed, mentioned: parts, source };
   }
-  if (model.labels.size > 0)
+  if (!isAsFound(model))
     throw new AskError(
       'no_recording',
       '',
-      t`The recorded answers are about the parts as the file names them, and some have other labels now`,
-      t`Reset those labels, or enter a key in the settings to ask anything`,
+      t`The recorded answers are about the parts as the file has them, and some have other labels or joints now`,
+      t`Reset those, or enter a key in the settings to ask anything`,
     );
   const gallery = galleryOf(model);
   const recordings = gallery === null ? null : await loadRecordings(gallery);

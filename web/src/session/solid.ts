@@ -1,12 +1,15 @@
 // The page's end of uniting parts for printers: a worker for one question, ended when it is answered or cancelled.
 
 import type { Shape } from '../program/types';
+import type { CadSource, ModelFiles } from '../scene/load';
 import type { CadProgram } from '../solid/cad';
+import type { State } from '../solid/cut';
 import type { Solid } from '../solid/types';
 import type { United } from '../solid/unite';
 import { t } from '../texts/texts';
 import { askOnce } from '../worker/once';
-import type { PrintFormat, SolidRequest, Written } from '../worker/solid.worker';
+import type { CadFile, Cut, PrintFormat, SolidRequest, Written } from '../worker/solid.worker';
+import type { CadPicture } from './cad_pictures';
 import { cutState, isCut } from './cuts';
 import type { Document } from './document';
 import { type Setting, shapeIds } from './family_state';
@@ -48,8 +51,28 @@ export async function cutExport(
   if (model === null || cad === undefined || !isCut(model.files)) return glb;
   const byId = new Map(model.shape.parts.map(({ id, node }) => [id, node]));
   const nodes = new Map([...shapeIds(cad, model.shape)].map(([id, own]) => [id, byId.get(own) ?? -1]));
-  const program = cad.program as CadProgram;
-  return (await ask<Written>({ kind: 'cut', glb, program, nodes, state: cutState(document, setting) }, options)).bytes;
+  const [bytes] = await cutFiles(cad, [{ glb, nodes, state: cutState(document, setting) }], options);
+  return bytes ?? glb;
+}
+
+async function cutFiles(cad: CadSource, files: readonly CadFile[], options: RunOptions): Promise<Cut['files']> {
+  return (await ask<Cut>({ kind: 'cut', program: cad.program as CadProgram, files }, options)).files;
+}
+
+/** Models of a program with their parts cut; as they are where nothing is to be cut. */
+export async function cutPictures(
+  files: ModelFiles,
+  pictures: readonly CadPicture[],
+  options: RunOptions,
+): Promise<readonly Uint8Array[]> {
+  const { cad } = files;
+  if (cad === undefined || !isCut(files)) return pictures.map(({ glb }) => glb);
+  const nodesOf = ({ absent }: State) => {
+    const there = cad.parts.filter(({ id, role }) => role === 'add' && !absent.has(id));
+    return new Map(there.map(({ id }, node) => [id, node]));
+  };
+  const whole = pictures.map(({ glb, state }) => ({ glb, nodes: nodesOf(state), state }));
+  return cutFiles(cad, whole, options);
 }
 
 /** A solid as a file. @param scale of the millimetres */

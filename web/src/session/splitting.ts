@@ -59,7 +59,12 @@ export async function splitModel(core: ModelCore, by: SplitBy, fine: number): Pr
   const { split, shape } = made;
   if (shape === null) {
     settled.value = new Set([...settled.peek(), from]);
-    say(`${t`Nothing in this model comes apart this way.`} ${leftWhole(split.remarks)}`.trim());
+    const remarks = split.remarks.slice(0, 3).join('; ');
+    say(
+      remarks === ''
+        ? t`Nothing in this model comes apart this way. Select a part to cut it by hand.`
+        : t`Nothing in this model comes apart this way: ${remarks}.`,
+    );
     return false;
   }
   const next = { ...emptyDocument, model: { files: split.files, source: model.source, shape, labels: noLabels } };
@@ -68,9 +73,6 @@ export async function splitModel(core: ModelCore, by: SplitBy, fine: number): Pr
     if (model.files.split && undoLabel.peek() === t(stepLabel)) undo();
     replaceDocument(next, t(stepLabel));
   });
-  if (split.remarks.length > 0) say(leftWhole(split.remarks));
+  if (split.remarks.length > 0) say(t`Split, but for this: ${split.remarks.slice(0, 3).join('; ')}.`);
   return true;
 }
-
-const leftWhole = (remarks: readonly string[]): string =>
-  remarks.length === 0 ? '' : t`Left whole: ${remarks.slice(0, 3).join('; ')}.`;

@@ -7,7 +7,7 @@ import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
 import { t } from '../texts/texts';
 import { models } from './core';
-import type { OpenModel } from './document';
+import { isAsFound, type OpenModel } from './document';
 import { createProposals } from './proposals';
 import type { Asker } from './propose';
 import { session } from './session';
@@ -38,8 +38,9 @@ export async function askerOf(model: OpenModel, votes = 1): Promise<Asker> {
   };
 }
 
-async function recordedAsker({ source, labels }: OpenModel): Promise<Asker> {
-  const recordings = source.kind === 'gallery' && labels.size === 0 ? await loadRecordings(source.id) : null;
+async function recordedAsker(model: OpenModel): Promise<Asker> {
+  const { source } = model;
+  const recordings = source.kind === 'gallery' && isAsFound(model) ? await loadRecordings(source.id) : null;
   if (recordings === null)
     throw new AskError(
       'no_recording',

@@ -7,7 +7,7 @@ import { shortened } from '../program/cut';
 import { jsonLimits, parseJson } from '../program/json';
 import { layerSchema, limits, programSchema } from '../program/schema';
 import type { CameraPose } from '../scene/camera';
-import type { Document } from '../session/document';
+import { correctionKinds, type Document } from '../session/document';
 import { savedFamily } from '../session/family_state';
 import { t } from '../texts/texts';
 import { extrasEntries, extrasOf, salvageExtras } from './extras';
@@ -28,6 +28,13 @@ const modelSchema = v.strictObject({
 const renamed: v.GenericSchema<unknown, [string, string]> = v.strictTuple([id, id]);
 const partKey = v.pipe(v.string(), v.regex(/^node:\d{1,9}\/\d{1,9}$/));
 const label: v.GenericSchema<unknown, [string, string]> = v.strictTuple([partKey, id]);
+const correction = v.strictObject({
+  kind: v.picklist(correctionKinds),
+  parts: v.pipe(
+    v.strictTuple([partKey, partKey]),
+    v.check(([a, b]) => a !== b),
+  ),
+});
 const choice: v.GenericSchema<unknown, [string, 'forced' | 'off']> = v.strictTuple([
   v.pipe(v.string(), v.maxBytes(2 * limits.nameLength)),
   v.picklist(['forced', 'off']),
@@ -85,6 +92,8 @@ const savedSchema = v.strictObject({
   names: v.pipe(v.array(renamed), v.maxLength(limits.statements)),
   /** Labels given in place of the file's own, by "node:<index>/<primitive>". */
   labels: v.exactOptional(v.pipe(v.array(label), v.maxLength(limits.statements))),
+  /** Joints and mirror images put right by hand. */
+  corrections: v.exactOptional(v.pipe(v.array(correction), v.maxLength(limits.statements))),
   family: v.exactOptional(familySchema),
   /** How the parts were told apart before all else; the hash is that of the result. */
   split: v.exactOptional(splitSchema),
@@ -107,7 +116,7 @@ export type ReadResult = ({ readonly ok: true } & Work) | { readonly ok: false; 
 export function save(document: Document, view?: CameraPose): Saved {
   const { model, layers, hidden, names } = document;
   if (model === null) throw new Error('there is no model to save the work on');
-  const { shape, source, labels } = model;
+  const { shape, source, labels, corrections = [] } = model;
   const family = savedFamily(document);
   const { split, carved } = model.files;
   return {
@@ -129,6 +138,9 @@ export function save(document: Document, view?: CameraPose): Saved {
     hidden: [...hidden],
     names: [...names],
     ...(labels.size > 0 ? { labels: [...labels] } : {}),
+    ...(corrections.length > 0
+      ? { corrections: corrections.map(({ kind, parts: [a, b] }) => ({ kind, parts: [a, b] })) }
+      : {}),
     ...(family === undefined ? {} : { family: family as unknown as v.InferOutput<typeof familySchema> }),
     ...(split === undefined ? {} : { split: { by: split.by, fine: split.fine } }),
     ...(carved === undefined ? {} : { carved: [...carved.steps] as NonNullable<Saved['carved']> }),
@@ -184,6 +196,9 @@ function salvage(json: Json): Work | null {
   for (const [i, layer] of all.entries()) if (!kept.has(i)) lost.push(editName(i, layer));
   const off = new Set(some(listOf(json['off'], t`which edits are off`), v.number(), t`which edits are off`));
   const labels = json['labels'] === undefined ? [] : some(listOf(json['labels'], t`labels`), label, t`labels`);
+  const corrected = t`joints and mirror images put right by hand`;
+  const given = json['corrections'];
+  const corrections = given === undefined ? [] : some(listOf(given, corrected), correction, corrected);
   const view = v.safeParse(viewSchema, json['view']);
   const split = v.safeParse(splitSchema, json['split']);
   if (!split.success && json['split'] !== undefined) lost.push(t`how the parts were told apart`);
@@ -212,6 +227,7 @@ function salvage(json: Json): Work | null {
     hidden: some(listOf(json['hidden'], t`what is hidden`), id, t`what is hidden`),
     names: some(listOf(json['names'], t`names`), renamed, t`names`),
     ...(labels.length > 0 ? { labels } : {}),
+    ...(corrections.length > 0 ? { corrections } : {}),
     ...(family.success ? { family: family.output } : {}),
     ...(split.success ? { split: split.output } : {}),
     ...(carved.success ? { carved: carved.output } : {}),

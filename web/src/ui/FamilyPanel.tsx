@@ -76,8 +76,8 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
   step.value;
   const { variations } = family.found.family;
   const { pictures } = family;
-  const { main } = model.files;
-  useEffect(() => drawFamily([main, ...pictures]), [main, pictures]);
+  const { files } = model;
+  useEffect(() => drawFamily(files, family), [files, pictures]);
   const entries = [
     { name: t`as drawn`, setting: family.found.family.sliders.map(({ value }) => value) },
     ...variations.map(({ name }, i) => ({ name, setting: settingOf(family, i) })),

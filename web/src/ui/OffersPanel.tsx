@@ -17,7 +17,7 @@ export function OffersPanel() {
   const state = offers.value;
   const { model } = document.value;
   if (model === null || models.value === null) return null;
-  const mine = state.kind !== 'none' && state.model.files === model.files ? state : null;
+  const mine = state.kind !== 'none' && state.model.shape === model.shape ? state : null;
   if (mine === null) {
     return (
       <button type="button" class="button wide" onClick={() => void look(model)}>

@@ -5,10 +5,11 @@ import { isGroup, type ShapePart } from '../program/types';
 import { models } from '../session/core';
 import { nameOf, partKey } from '../session/document';
 import { relabel } from '../session/open';
-import { document, pointedAt, select, selected, selection, showAll } from '../session/session';
+import { document, pointedAt, select, selectAll, selected, selection, showAll } from '../session/session';
 import { t } from '../texts/texts';
 import { Found } from './Found';
 import { NamesCard } from './NamesCard';
+import { CorrectionList, PairCard } from './PairCard';
 import { PartsList } from './PartsList';
 import { PlaceCard } from './PlaceCard';
 import { SelectionBar } from './SelectionBar';
@@ -32,8 +33,11 @@ export function PartsPanel({ onEdit }: { onEdit: () => void }) {
       <SplitCard />
       <PlaceCard />
       <NamesCard />
-      <SelectionBar shape={model.shape} onEdit={onEdit} />
+      <SelectionBar shape={model.shape} onEdit={onEdit}>
+        <PairCard shape={model.shape} />
+      </SelectionBar>
       {selected.value.length < 2 && <SelectedPart />}
+      <CorrectionList />
     </>
   );
 }
@@ -149,7 +153,10 @@ function Why({ id }: { id: string }) {
   );
 }
 
-/** What holds the selected part: pointing at a relation shows its points or its plane. */
+/**
+ * What holds the selected part: pointing at a relation shows its points or its plane, a click selects both its parts, so that
+ * it can be changed.
+ */
 function Relations({ id }: { id: string }) {
   const { model } = document.value;
   if (model === null) return null;
@@ -159,7 +166,9 @@ function Relations({ id }: { id: string }) {
   return (
     <section class="relations" aria-label={t`Relations of the selected part`}>
       <h3>{t`What holds ${nameOf(document.value, id)}`}</h3>
-      {relations.length === 0 && <p class="quiet">{t`Nothing: it stands alone.`}</p>}
+      {relations.length === 0 && (
+        <p class="quiet">{t`Nothing: it stands alone. Select another part as well (Shift+click) to join the two.`}</p>
+      )}
       <ul>
         {relations.map((relation) => {
           const show = () => {
@@ -168,11 +177,15 @@ function Relations({ id }: { id: string }) {
           const hide = () => {
             pointedAt.value = null;
           };
+          const other = relation.parts.find((part) => part !== id);
+          const isPair = !isGroup(relation) && other !== undefined;
           return (
             <li key={relation.id}>
               <button
                 type="button"
                 class="line"
+                title={isPair ? t`Selects both, to change what holds them` : undefined}
+                onClick={isPair ? () => selectAll([id, other]) : undefined}
                 onPointerEnter={show}
                 onPointerLeave={hide}
                 onFocus={show}

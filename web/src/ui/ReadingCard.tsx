@@ -54,7 +54,12 @@ export function ReadingCard({ state }: { state: Understood }) {
               {corrected ?? chosen.words}
             </span>
           ) : (
-            <span>{undecided ?? t`“${state.request}” was understood, but is not applied`}</span>
+            <span>
+              {undecided ??
+                (task.value === null
+                  ? t`“${state.request}” was understood, but is not applied`
+                  : t`“${state.request}” is understood, and is being worked out`)}
+            </span>
           )}
         </button>
         {layer !== null && seed.of > 1 && chosen && <span class="quiet votes">{t`${chosen.votes} of ${seed.of}`}</span>}

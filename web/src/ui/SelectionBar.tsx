@@ -1,5 +1,5 @@
 // What can be done with the parts that are selected.
-
+import type { ComponentChildren } from 'preact';
 import type { Shape } from '../program/types';
 import { carveModel, keysOf, whyUncarvable } from '../session/carving';
 import { models } from '../session/core';
@@ -10,8 +10,19 @@ import { alike, realParts } from '../session/several';
 import { t } from '../texts/texts';
 import { listWords } from './words';
 
-/** @param onEdit begins an edit by hand of all of them */
-export function SelectionBar({ shape, onEdit }: { shape: Shape; onEdit: () => void }) {
+/**
+ * @param onEdit begins an edit by hand of all of them
+ * @param children what they are to each other
+ */
+export function SelectionBar({
+  shape,
+  onEdit,
+  children,
+}: {
+  shape: Shape;
+  onEdit: () => void;
+  children?: ComponentChildren;
+}) {
   const ids = selected.value;
   const [first] = ids;
   if (first === undefined) return null;
@@ -29,6 +40,7 @@ export function SelectionBar({ shape, onEdit }: { shape: Shape; onEdit: () => vo
           <span class="quiet">{listWords(firstNames, 3, ids.length)}</span>
         </h3>
       )}
+      {children}
       <div class="chips">
         {like.length > real.length && (
           <button

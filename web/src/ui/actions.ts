@@ -14,7 +14,6 @@ import { oneFile, slidersOfWork } from '../session/one_file';
 import { openFiles, openSaved } from '../session/open';
 import { asItsFile } from '../session/placing';
 import { document, family as families, run, say, selected } from '../session/session';
-import { cutExport } from '../session/solid';
 import type { RunOptions } from '../session/tasks';
 import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
@@ -116,8 +115,10 @@ export async function editedFile(kind: ExportKind, repair: boolean, options: Run
     const { warnings } = exported;
     return { ...exported, warnings: isCut(model.files) ? [...warnings, t(uncut)] : warnings };
   }
+  if (!isCut(model.files)) return exported;
   const { family } = document.peek();
   const setting = family === undefined ? null : families.settingNow(family);
+  const { cutExport } = await import('../session/solid');
   return { ...exported, glb: await cutExport(exported.glb, document.peek(), setting, options) };
 }
 

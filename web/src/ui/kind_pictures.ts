@@ -1,37 +1,41 @@
 // Pictures of suggested kinds, drawn as they come in.
 import { effect, signal } from '@preact/signals';
-import { loadModel } from '../scene/load';
+import { loadModel, type ModelFiles } from '../scene/load';
 import type { ThumbnailPainter } from '../scene/thumbnail';
+import type { CadPicture } from '../session/cad_pictures';
 import type { KindsActions } from '../session/kinds';
+import { asCut } from './family_pictures';
 
-/** Addresses by GLB. */
-export const kindPictures = signal<ReadonlyMap<Uint8Array, string>>(new Map());
+/** Addresses by what they show. */
+export const kindPictures = signal<ReadonlyMap<CadPicture, string>>(new Map());
 
 /** Answers how to stop and let them go. */
 export function drawKinds({ asked }: Pick<KindsActions, 'asked'>): () => void {
   const controller = new AbortController();
-  const begun = new Set<Uint8Array>();
+  const begun = new Set<CadPicture>();
   let painter: Promise<ThumbnailPainter> | null = null;
   let queue: Promise<void> = Promise.resolve();
 
-  async function draw(main: Uint8Array): Promise<void> {
+  async function draw(files: ModelFiles, picture: CadPicture): Promise<void> {
     try {
+      const [main = picture.glb] = await asCut(files, [picture], controller.signal);
       painter ??= import('../scene/thumbnail').then((module) => new module.ThumbnailPainter(192, 144));
       const loaded = await loadModel({ name: '', main, external: new Map() });
-      const picture = controller.signal.aborted ? null : await (await painter).paint(loaded);
+      const drawn = controller.signal.aborted ? null : await (await painter).paint(loaded);
       loaded.dispose();
-      if (picture === null || controller.signal.aborted) return;
-      kindPictures.value = new Map(kindPictures.peek()).set(main, URL.createObjectURL(picture));
+      if (drawn === null || controller.signal.aborted) return;
+      kindPictures.value = new Map(kindPictures.peek()).set(picture, URL.createObjectURL(drawn));
     } catch {
       // a kind without a picture is still one that can be kept
     }
   }
 
   const stop = effect(() => {
-    for (const { state } of asked.value?.cards ?? []) {
-      if (state.kind !== 'drawn' || begun.has(state.picture)) continue;
+    const now = asked.value;
+    for (const { state } of now?.cards ?? []) {
+      if (now === null || state.kind !== 'drawn' || begun.has(state.picture)) continue;
       begun.add(state.picture);
-      queue = queue.then(() => draw(state.picture));
+      queue = queue.then(() => draw(now.model.files, state.picture));
     }
   });
   return () => {

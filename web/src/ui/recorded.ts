@@ -2,15 +2,16 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { loadRecordings, type RecordedRequest } from '../llm/recordings';
+import { isAsFound } from '../session/document';
 import { programUrls } from '../session/gallery';
 import { document } from '../session/session';
 
-/** The recorded requests of the present gallery model that are worth a try; none while parts have other labels. */
+/** The recorded requests of the present gallery model that are worth a try; none while labels or joints are others. */
 export function useRecorded(): readonly RecordedRequest[] {
   const found = useSignal<readonly RecordedRequest[]>([]);
-  const { source, labels } = document.value.model ?? {};
-  const isModel = source?.kind === 'gallery' && labels?.size === 0 && programUrls(source.id) === null;
-  const gallery = isModel ? source.id : null;
+  const { model } = document.value;
+  const source = model !== null && isAsFound(model) ? model.source : null;
+  const gallery = source?.kind === 'gallery' && programUrls(source.id) === null ? source.id : null;
   useEffect(() => {
     let current = true;
     found.value = [];

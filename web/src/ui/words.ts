@@ -200,6 +200,10 @@ export function listWords(names: readonly string[], most = 3, count = names.leng
 
 const joints = { point: m`at a point`, line: m`along a line`, face: m`by a face`, volume: m`inside@joint` } as const;
 
+/** "by a face"; empty for what is no joint. */
+export const jointWords = ({ kind }: ShapeRelation): string =>
+  kind in joints ? t(joints[kind as keyof typeof joints]) : '';
+
 /** @param from reads the relation from this part's side: "joined to front left leg at a point" */
 export function relationWords(document: Document, relation: ShapeRelation, from?: string): string {
   const [a = '', b = ''] = relation.parts.map((id) => nameOf(document, id));

@@ -1,6 +1,6 @@
-// The page's end of the core: typed calls with progress and cancel. A worker that crashed or whose call was cancelled is
-// terminated and replaced. What a worker has to know before a call comes with the call, as a state: it is set up when the
-// worker has another or is new, so that nobody else needs to know which worker it is.
+// The page's end of one module of the core: typed calls with progress and cancel. A worker that crashed or whose call was
+// cancelled is terminated and replaced. What a worker has to know before a call comes with the call, as a state: it is set up
+// when the worker has another or is new, so that nobody else needs to know which worker it is.
 import * as v from 'valibot';
 import {
   type CoreErrorValue,
@@ -13,7 +13,6 @@ import {
   type Request,
   type Response,
 } from './protocol';
-import { watched } from './watch';
 
 /** The core refused, or could not do it. `message` is one sentence for people. */
 export class CoreError extends Error {
@@ -56,6 +55,9 @@ interface PendingCall {
   onProgress: ((progress: Progress) => void) | undefined;
   settle: (outcome: { json: string; buffers: Uint8Array[] } | CoreError) => void;
 }
+
+/** What can be asked of the core. */
+export type Calls = Pick<CoreClient, 'call' | 'setUp'>;
 
 /** What the client needs of a Worker; tests pass their own. */
 export interface WorkerLike {
@@ -251,12 +253,4 @@ export class CoreClient {
     this.#queue[0]?.settle(crashError(text));
     this.#spawn();
   }
-}
-
-/** Compiles the module and starts the worker of the page. */
-export async function startCore(wasmUrl: string): Promise<CoreClient> {
-  const module = await WebAssembly.compileStreaming(fetch(wasmUrl));
-  return new CoreClient(module, () =>
-    watched((name) => new Worker(new URL('./core.worker.ts', import.meta.url), { type: 'module', name })),
-  );
 }

@@ -1,51 +1,5 @@
-// Owns the WebAssembly module. Answers one call at a time; whatever breaks the module itself is reported as `crashed`.
-import createModule, { type ParselModule } from 'parsel-module/parsel.mjs';
-import type { Request, Response } from './protocol';
-import { holdWatchedLock } from './watch';
+// The module that the page begins with. GiNaC's first calls are several times slower than later ones: it is warmed up.
+import createModule from 'parsel-module/parsel.mjs';
+import { serve } from './serve';
 
-holdWatchedLock();
-
-let core: ParselModule | undefined;
-
-const post = (response: Response, transfer: Transferable[] = []) => self.postMessage(response, { transfer });
-const crashed = (error: unknown) =>
-  post({ kind: 'crashed', text: error instanceof Error ? error.message : String(error) });
-
-async function start(module: WebAssembly.Module): Promise<void> {
-  const begin = performance.now();
-  core = await new Promise<ParselModule>((resolve, reject) => {
-    createModule({
-      instantiateWasm(imports, receive) {
-        WebAssembly.instantiate(module, imports).then(receive, reject); // the loader would swallow a failure
-        return {};
-      },
-      onAbort: reject,
-      print: () => {},
-      printErr: () => {},
-    }).then(resolve, reject);
-  });
-  // GiNaC's first calls are several times slower than later ones: make them before anybody waits for one.
-  core.invoke('warm_up', '{}', [], null);
-  post({ kind: 'ready', startMilliseconds: performance.now() - begin });
-}
-
-function call(request: Request & { kind: 'call' }): void {
-  if (core === undefined) throw new Error('called before start');
-  const { id, method, parameters, buffers } = request;
-  const reply = core.invoke(method, JSON.stringify(parameters), buffers, (step, done, total) =>
-    post({ kind: 'progress', id, step, done, total }),
-  );
-  post(
-    { kind: 'reply', id, ...reply },
-    reply.buffers.map((buffer) => buffer.buffer),
-  );
-}
-
-self.onmessage = async ({ data }: MessageEvent<Request>) => {
-  try {
-    if (data.kind === 'start') await start(data.module);
-    else call(data);
-  } catch (error) {
-    crashed(error); // an abort, a trap, or memory that cannot grow: never an Error value of the core
-  }
-};
+serve(createModule, 'warm_up');

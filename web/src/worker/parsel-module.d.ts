@@ -1,5 +1,5 @@
-// The Emscripten loader and the module it loads, built by CMake (wasm/bindings.cpp).
-declare module 'parsel-module/parsel.mjs' {
+// The Emscripten loaders and the modules that they load, built by CMake (wasm/bindings.cpp).
+declare module 'parsel-module' {
   export interface ParselModule {
     invoke(
       method: string,
@@ -19,10 +19,15 @@ declare module 'parsel-module/parsel.mjs' {
     print?(text: string): void;
     printErr?(text: string): void;
   }
-  export default function createModule(options: ParselModuleOptions): Promise<ParselModule>;
+  export type CreateModule = (options: ParselModuleOptions) => Promise<ParselModule>;
 }
 
-declare module 'parsel-module/parsel.wasm?url' {
+declare module 'parsel-module/*.mjs' {
+  const createModule: import('parsel-module').CreateModule;
+  export default createModule;
+}
+
+declare module 'parsel-module/*.wasm?url' {
   const url: string;
   export default url;
 }

@@ -1,5 +1,5 @@
-// What the page and the core say to each other. The core's side is wasm/methods.cpp; tests/web/protocol.test.ts fails
-// when the two differ.
+// What the page and the core say to each other. The core's side is wasm/methods.cpp and, of CAD programs, wasm/cad_methods.cpp;
+// tests/web/protocol.test.ts fails when the two differ.
 import * as v from 'valibot';
 import { familyMethods } from './family_protocol';
 
@@ -121,8 +121,8 @@ export type PlainInference = v.InferOutput<typeof plainSchema>;
 export const splitMethodSchema = v.picklist(['auto', 'components', 'materials', 'regions']);
 export type SplitMethod = v.InferOutput<typeof splitMethodSchema>;
 
-/** Every method of the core: the JSON parameters that it takes and the JSON result that it gives. */
-export const methodSchemas = {
+/** The methods of the module that the page begins with: the JSON parameters that each takes, and the JSON result that it gives. */
+const coreMethods = {
   /** The version of the core. */
   version: { parameters: v.strictObject({}), result: v.strictObject({ version: v.string() }) },
   /** Runs the solver a few times, so that later calls are fast. */
@@ -135,13 +135,15 @@ export const methodSchemas = {
   /**
    * Opens a model: buffers are the file and then its external buffers, in the order of their names in `external`. The
    * shape is `parsel/shape` v1. `labels` take the place of the file's own, by "node:<index>" or
-   * "node:<index>/<primitive>". Puts the core into a state: see CoreState in client.ts.
+   * "node:<index>/<primitive>"; `corrections` are joints and mirror images, whatever is found: core/shape/corrections.h.
+   * Puts the core into a state: see CoreState in client.ts.
    */
   open: {
     parameters: v.strictObject({
       name: v.string(),
       external: v.array(v.string()),
       labels: v.optional(v.record(v.string(), v.string())),
+      corrections: v.optional(v.array(v.strictObject({ kind: v.string(), parts: v.array(v.string()) }))),
     }),
     result: v.strictObject({ shape: v.looseObject({ format: v.literal('parsel/shape'), version: v.literal(1) }) }),
   },
@@ -313,13 +315,19 @@ export const methodSchemas = {
     parameters: v.strictObject({ request: v.string(), replies: v.array(repliesSchema) }),
     result: inferenceSchema,
   },
-  ...familyMethods,
   /** Goes wrong on purpose: how the recovery below is tested. */
   fail: {
     parameters: v.strictObject({ kind: v.picklist(['exception', 'abort', 'memory', 'hang']) }),
     result: v.strictObject({}),
   },
 } as const;
+
+/** Which method lives in which module. */
+export const methodsOf = { core: coreMethods, cad: familyMethods } as const;
+export type ModuleName = keyof typeof methodsOf;
+
+/** Every method, in whichever module. */
+export const methodSchemas = { ...coreMethods, ...familyMethods } as const;
 
 export type Method = keyof typeof methodSchemas;
 export type Parameters<M extends Method> = v.InferInput<(typeof methodSchemas)[M]['parameters']>;

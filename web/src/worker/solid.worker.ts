@@ -16,6 +16,14 @@ holdWatchedLock();
 
 export type PrintFormat = 'stl' | '3mf';
 
+/** What a CAD program makes in one state. */
+export interface CadFile {
+  readonly glb: Uint8Array;
+  /** Of the parts that add material, by their ids in the program. */
+  readonly nodes: ReadonlyMap<string, number>;
+  readonly state: State;
+}
+
 export type SolidRequest =
   | {
       readonly kind: 'unite';
@@ -26,11 +34,8 @@ export type SolidRequest =
     }
   | {
       readonly kind: 'cut';
-      readonly glb: Uint8Array;
       readonly program: CadProgram;
-      /** Of the parts that add material, by their ids in the program. */
-      readonly nodes: ReadonlyMap<string, number>;
-      readonly state: State;
+      readonly files: readonly CadFile[];
     }
   | {
       readonly kind: 'write';
@@ -45,7 +50,12 @@ export interface Written {
   readonly bytes: Uint8Array<ArrayBuffer>;
 }
 
-const answer = (reply: Answer<United | Written>, transfer: Transferable[] = []) =>
+/** The files in their order. */
+export interface Cut {
+  readonly files: readonly Uint8Array<ArrayBuffer>[];
+}
+
+const answer = (reply: Answer<United | Written | Cut>, transfer: Transferable[] = []) =>
   self.postMessage(reply, { transfer });
 
 self.onmessage = async ({ data }: MessageEvent<SolidRequest>) => {
@@ -59,8 +69,14 @@ self.onmessage = async ({ data }: MessageEvent<SolidRequest>) => {
     answer({ progress: { step: 'fetching what unites and cuts', done: 0, total: 1 } });
     const manifold = await loadManifold(manifoldUrl);
     if (data.kind === 'cut') {
-      const bytes = await cutFile(data.glb, data.program, data.nodes, data.state, manifold);
-      answer({ bytes }, [bytes.buffer]);
+      const files: Uint8Array<ArrayBuffer>[] = [];
+      for (const { glb, nodes, state } of data.files) {
+        files.push(await cutFile(glb, data.program, nodes, state, manifold));
+      }
+      answer(
+        { files },
+        files.map(({ buffer }) => buffer),
+      );
       return;
     }
     const parts = await partsOf(data.glb, data.names);
