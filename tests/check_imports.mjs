@@ -42,8 +42,13 @@ const rooms = {
     packages: ['manifold-3d', 'fflate', '@gltf-transform'],
     rule: 'solid makes one closed surface of triangles and writes it for printers; it also runs where there is no page',
   },
+  fill: {
+    may: ['solid/parts', 'solid/types', 'solid/vectors', 'solid/weld'],
+    packages: ['three', 'three-mesh-bvh', 'meshoptimizer', '@gltf-transform', 'parsel-module'],
+    rule: 'fill closes gaps between surfaces by new ones and nothing else; it also runs where there is no page',
+  },
   worker: {
-    may: ['scene/load', 'formats', 'carve', 'solid'],
+    may: ['scene/load', 'formats', 'carve', 'solid', 'fill'],
     packages: ['valibot', 'parsel-module', 'draco3dgltf', 'meshoptimizer', '@gltf-transform', 'manifold-3d'],
     rule: 'worker is the way to the core and back; of the page it knows the type of a file alone, and what reads files',
   },

@@ -159,4 +159,34 @@ describe('a model for printing', () => {
     expect(complaints).toEqual([]);
     await page.context().close();
   });
+
+  it('is filled where surfaces are apart, by a module that is fetched when it is asked for', async () => {
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
+    const fetched: string[] = [];
+    page.on('request', (request) => fetched.push(request.url()));
+    const shape = await page.evaluate(() => parsel.document().model?.shape);
+    const [first] = shape === undefined ? [] : program(shape).layers;
+    const leg = shape?.parts.find(({ node }) => node === 1)?.id;
+    if (!shape || first === undefined || leg === undefined) throw new Error('no model');
+    const sink = { op: 'translate', part: leg, feature: [0, 0, 0], direction: [0, -1, 0], amount: 'x1' } as const;
+    const layer = { ...first, request: 'sink a leg', statements: [sink] };
+    await page.evaluate((all) => parsel.addProgram(all, 'test'), { ...program(shape), layers: [layer] });
+    await page.getByRole('slider').first().fill('0.01');
+
+    const exported = async () => {
+      await page.getByRole('button', { name: 'Export' }).click();
+      const [event] = await Promise.all([
+        page.waitForEvent('download'),
+        page.getByRole('menuitem', { name: 'Edited, gaps filled' }).click(),
+      ]);
+      return partsOf(new Uint8Array(await readFile(await event.path())), new Map());
+    };
+    const parts = await exported();
+    await page.getByText(/Gaps are closed|Filled between/).waitFor();
+    expect(parts.length).toBe(10);
+    expect(fetched.filter((url) => /poisson.*\.wasm/.test(url)).length).toBe(1);
+    await page.screenshot({ path: `${outputFolder}/filled.png` });
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
 });

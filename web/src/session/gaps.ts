@@ -8,6 +8,12 @@ import type { Exported } from './model_core';
 
 const mostNamed = 3;
 
+/** Without what is open still, and without a word where nothing became longer. */
+export function withoutLeft(exported: Exported): Exported {
+  const { gaps, ...rest } = exported;
+  return gaps === undefined || gaps.closed.length === 0 ? rest : { ...rest, gaps: { ...gaps, left: [] } };
+}
+
 /** @param unit of lengths; absent: whichever suits each */
 export function gapSentences({ gaps }: Exported, shape: Shape, unit: LengthUnit | undefined): string {
   if (gaps === undefined) return '';

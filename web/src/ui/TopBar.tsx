@@ -42,6 +42,12 @@ function exportItems(): MenuItem[] {
       act: () => void exportModel('all', { repair: true }),
     },
     {
+      label: t`Edited, gaps filled`,
+      hint: '.glb',
+      disabled: noLayer,
+      act: () => void exportModel('all', { repair: 'fill' }),
+    },
+    {
       label: selected.value.length > 1 ? t`Selected parts only` : t`Selected part only`,
       hint: '.glb',
       disabled: none || selected.value.length === 0,

@@ -8,7 +8,8 @@ import { editedName, plainName } from '../session/download_names';
 import { activeLayers } from '../session/evaluation';
 import { absentParts } from '../session/family_state';
 import { type FileSet, hasModel, sessionOf, unpacked } from '../session/files';
-import { gapSentences } from '../session/gaps';
+import type { Filling } from '../session/fill';
+import { gapSentences, withoutLeft } from '../session/gaps';
 import type { Exported, ExportOptions } from '../session/model_core';
 import { oneFile, slidersOfWork } from '../session/one_file';
 import { openFiles, openSaved } from '../session/open';
@@ -127,8 +128,8 @@ const uncut = m`What is cut changes with the slider: in this file its parts are 
 interface ExportChoice {
   /** Turned and sized as it is shown; else as its file was. */
   readonly asItStands?: boolean;
-  /** Whether gaps are closed, which is then said. */
-  readonly repair?: boolean;
+  /** Whether gaps are closed, which is then said; those that parts cannot be made longer for are filled, if asked for. */
+  readonly repair?: boolean | 'fill';
 }
 
 export async function exportModel(
@@ -137,17 +138,32 @@ export async function exportModel(
 ): Promise<void> {
   const { model, unit } = document.peek();
   const exported = await run(t`Writing the file`, async (options) => {
-    const made = await editedFile(kind, repair, options);
+    const made = await editedFile(kind, repair !== false, options);
     if (made === null || model === null || asItStands) return made;
-    return { ...made, glb: await asItsFile(model.files, made.glb, options) };
+    const filling = repair === 'fill' ? await filledFile(made.glb, options) : { glb: made.glb, said: '' };
+    return { ...made, said: filling.said, glb: await asItsFile(model.files, filling.glb, options) };
   });
   if (exported === null || model === null) return;
   download(
     `${editedName(modelName())}${{ all: '', selected: '.part', animated: '.animated' }[kind]}.glb`,
     new Blob([exported.glb as BlobPart], { type: 'model/gltf-binary' }),
   );
-  const said = [gapSentences(exported, model.shape, unit), ...exported.warnings.slice(0, 3)].filter(Boolean);
+  const filled = 'said' in exported ? exported.said : '';
+  // Where surfaces were looked at themselves, what boxes say is not the last word.
+  const closed = gapSentences(filled === '' ? exported : withoutLeft(exported), model.shape, unit);
+  const said = [closed, filled, ...exported.warnings.slice(0, 3)].filter(Boolean);
   if (said.length > 0) say(said.join(' '));
+}
+
+/** An edited file with the gaps filled that are left in it. */
+async function filledFile(glb: Uint8Array, options: RunOptions): Promise<Filling> {
+  const core = models.peek();
+  const { model, unit } = document.peek();
+  if (core === null || model === null) return { glb, said: '' };
+  const rest = await core.apply(model, programOf(model.shape, []), {});
+  options.signal.throwIfAborted();
+  const { filledGaps } = await import('../session/fill'); // few want it: not among what is fetched first
+  return filledGaps(rest.glb, glb, model.shape, programOf(model.shape, activeLayers(document.peek())), unit, options);
 }
 
 /** The address of this page with the work in its fragment. */
