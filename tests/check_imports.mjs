@@ -17,6 +17,11 @@ const rooms = {
     packages: ['valibot'],
     rule: 'program reads, checks and evaluates programs and nothing else; it also runs where there is no page',
   },
+  texts: {
+    may: [],
+    packages: ['@preact/signals'],
+    rule: 'texts is what the page says, in which language; it knows nothing of what is said',
+  },
   scene: {
     may: ['program', 'carve/steps'],
     packages: ['three', 'camera-controls'],
@@ -48,22 +53,30 @@ const rooms = {
     rule: 'worker is the way to the core and back; of the page it knows the type of a file alone, and what reads files',
   },
   llm: {
-    may: ['program/json', 'program/cut', 'worker/protocol'],
+    may: ['texts', 'program/json', 'program/cut', 'worker/protocol'],
     packages: ['@preact/signals', 'valibot', 'idb-keyval'],
     rule: 'llm asks language models; what prompts and replies mean is the business of the core and the session',
   },
   share: {
-    may: ['program', 'scene/camera', 'carve/steps', 'carve/placing', 'session/document', 'session/family_state'],
+    may: [
+      'texts',
+      'program',
+      'scene/camera',
+      'carve/steps',
+      'carve/placing',
+      'session/document',
+      'session/family_state',
+    ],
     packages: ['valibot'],
     rule: 'share writes and reads saved work; of the session it knows the type of the work alone',
   },
   session: {
-    may: ['program', 'scene', 'formats', 'carve/steps', 'carve/placing', 'solid', 'worker', 'llm', 'share'],
+    may: ['texts', 'program', 'scene', 'formats', 'carve/steps', 'carve/placing', 'solid', 'worker', 'llm', 'share'],
     packages: ['@preact/signals', 'valibot', 'idb-keyval', 'fflate', 'parsel-module', 'draco3dgltf'],
     rule: 'session is the state of the page and what can be done to it, without a single element of the page',
   },
   ui: {
-    may: ['program', 'scene', 'carve/placing', 'worker', 'llm', 'share', 'session'],
+    may: ['texts', 'program', 'scene', 'carve/placing', 'worker', 'llm', 'share', 'session'],
     packages: ['preact', '@preact/signals'],
     rule: 'ui shows the session and calls it; drawing, storing and asking are done in their rooms',
   },

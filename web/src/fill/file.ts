@@ -8,7 +8,7 @@ import { turnedOver } from '../solid/weld';
 import { fillGap } from './fill';
 import { boundsOf, contactOf, Parts, relative } from './gap';
 import { normalsOf } from './surface';
-import type { EditedPart, FilledGap, Patch, Reconstruct } from './types';
+import type { EditedPart, FilledGap, Patch, Reconstruct, Unfilled } from './types';
 
 /** Of the model's half-diagonal: what is farther apart is no gap between parts that belong together. */
 const widest = 0.15;
@@ -63,7 +63,7 @@ export async function fillFile(
     const contact = contactOf(all, pair);
     if (contact === null || contact.width <= relative.narrowest * scale) continue;
     const { parts: own, width } = contact;
-    const leave = (left: string) => gaps.push({ parts: own, width, patches: [], left });
+    const leave = (left: Unfilled) => gaps.push({ parts: own, width, patches: [], left });
     const fixed = own.map((part) => whyFixed(found[part]?.at)).find((why) => why !== null);
     if (width > widest * scale) leave('they are too far apart');
     else if (fixed) leave(fixed);
@@ -104,8 +104,8 @@ function primitiveAt(document: Document, { node: n, primitive: p }: PartPlace): 
 
 const surfaceOf = ({ node, primitive }: Shown) => placed(node, primitive, trianglesOf(primitive));
 
-/** Why a part cannot get corners, a clause; null where it can. */
-function whyFixed(part: Shown | undefined): string | null {
+/** Why a part cannot get corners; null where it can. */
+function whyFixed(part: Shown | undefined): Unfilled | null {
   if (part === undefined) return 'one is not there any more';
   if (part.node.getSkin() !== null) return 'one bends with a skeleton';
   if (part.primitive.listTargets().length > 0) return 'one has morph targets';

@@ -9,7 +9,7 @@ import { MeshoptSimplifier } from 'meshoptimizer';
 import { boundsOf, type Contact, type Parts, relative } from './gap';
 import { PointGrid } from './points';
 import { type Box, diskSamples, type Sample } from './samples';
-import type { EditedPart, FilledGap, Patch, Place, Reconstruct } from './types';
+import type { EditedPart, FilledGap, Patch, Place, Reconstruct, Unfilled } from './types';
 
 /** Samples to the width of a gap. */
 const fineness = 8;
@@ -29,7 +29,7 @@ type Point = readonly [number, number, number];
 /** @param contact whose width is a gap */
 export function fillGap(parts: Parts, contact: Contact, reconstruct: Reconstruct): FilledGap {
   const { parts: pair, width } = contact;
-  const leave = (left: string): FilledGap => ({ parts: pair, width, patches: [], left });
+  const leave = (left: Unfilled): FilledGap => ({ parts: pair, width, patches: [], left });
   const across = width + contact.distance;
   const box = grown(boundsOf(contact.points.flatMap((list) => list.flatMap(({ at }) => at))), 0);
   const longest = Math.max(...box.high.map((x, k) => x - (box.low[k] as number)));

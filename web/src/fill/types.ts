@@ -23,13 +23,23 @@ export interface Patch {
   readonly places: readonly Place[];
 }
 
+/** Why nothing was filled in: clauses on the two parts of a gap, and on what was built between them. */
+export type Unfilled =
+  | 'they are too far apart'
+  | 'nothing of one faces the other'
+  | 'what was built anew does not reach across'
+  | 'one is not there any more'
+  | 'one bends with a skeleton'
+  | 'one has morph targets'
+  | 'one is drawn many times by one node';
+
 export interface FilledGap {
   readonly parts: readonly [number, number];
   /** By how much the parts were farther apart than at rest. */
   readonly width: number;
   readonly patches: readonly Patch[];
-  /** Why nothing was filled in, a clause; empty where the gap is closed. */
-  readonly left: string;
+  /** Empty where the gap is closed. */
+  readonly left: Unfilled | '';
 }
 
 export interface Reconstruction {

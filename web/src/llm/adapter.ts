@@ -1,4 +1,5 @@
 // What the three protocols have in common: a call, its reply, and the two ways in which a reply is none.
+import { t } from '../texts/texts';
 import { AskError } from './ask_error';
 import type { Provider } from './providers';
 
@@ -48,14 +49,14 @@ export const unreadable = (host: string): AskError =>
   new AskError(
     'unreadable',
     host,
-    'answered in a form that this page cannot read',
-    'Check that the base URL is that of the API, or try again',
+    t`answered in a form that this page cannot read`,
+    t`Check that the base URL is that of the API, or try again`,
   );
 
 export const cutOff = (host: string): AskError =>
   new AskError(
     'cut_off',
     host,
-    `cut the reply off before its end (${outputBudget} tokens were allowed)`,
-    'Try again, or choose a model that thinks less or has a longer context',
+    t`cut the reply off before its end (${outputBudget} tokens were allowed)`,
+    t`Try again, or choose a model that thinks less or has a longer context`,
   );

@@ -1,5 +1,7 @@
 // Anthropic's protocol: POST {base}/messages, and the header that lets a page call it.
+
 import * as v from 'valibot';
+import { t } from '../texts/texts';
 import { type Adapter, cutOff, outputBudget, unreadable } from './adapter';
 import { AskError } from './ask_error';
 import { plainReply, structuredPrompt, structuredSchema } from './structure';
@@ -43,7 +45,8 @@ export const anthropic: Adapter = {
     if (!read.success) throw unreadable(host);
     const { stop_reason, content } = read.output;
     if (stop_reason === 'max_tokens' || stop_reason === 'model_context_window_exceeded') throw cutOff(host);
-    if (stop_reason === 'refusal') throw new AskError('unreadable', host, 'refuses to answer', 'Say it in other words');
+    if (stop_reason === 'refusal')
+      throw new AskError('unreadable', host, t`refuses to answer`, t`Say it in other words`);
     const text = content.map((block) => (block.type === 'text' ? (block.text ?? '') : '')).join('');
     if (text === '') throw unreadable(host);
     return plainReply(text);

@@ -1,5 +1,7 @@
 // Why a language model gave no answer: what happened, on whose side, and what to do about it.
+
 import { shortened } from '../program/cut';
+import { t } from '../texts/texts';
 import type { CoreErrorValue } from '../worker/protocol';
 
 export type AskFailure =
@@ -79,42 +81,42 @@ export function refusal(status: number, said: string, host: string, retryAfter: 
   )
     return error(
       'no_credit',
-      'says that the account has no credit left',
-      'Top it up there, or choose another provider',
+      t`says that the account has no credit left`,
+      t`Top it up there, or choose another provider`,
     );
   if (status === 401 || /api.?key.?(not valid|invalid)|invalid.?api.?key/i.test(said))
     return error(
       'wrong_key',
-      'does not accept the key',
-      'Check the key in the settings: whole, of this provider, not revoked',
+      t`does not accept the key`,
+      t`Check the key in the settings: whole, of this provider, not revoked`,
     );
   if (status === 403)
     return error(
       'forbidden',
-      'refuses this page or this key',
-      'A server on your machine has to allow this page (Ollama: OLLAMA_ORIGINS); elsewhere the key lacks the right to this model',
+      t`refuses this page or this key`,
+      t`A server on your machine has to allow this page (Ollama: OLLAMA_ORIGINS); elsewhere the key lacks the right to this model`,
     );
   if (status === 404 || (status === 400 && isModel))
     return error(
       'model_unknown',
-      'does not know this model or this address',
-      'Check the model’s name and the base URL in the settings',
+      t`does not know this model or this address`,
+      t`Check the model’s name and the base URL in the settings`,
     );
   if (status === 429)
     return error(
       'rate',
-      'takes no more requests for the moment',
-      'Wait a minute, lower the number of votes, or raise the limit there',
+      t`takes no more requests for the moment`,
+      t`Wait a minute, lower the number of votes, or raise the limit there`,
     );
   if (status === 408 || status >= 500)
     return error(
       'server',
-      `has a fault of its own (${status})`,
-      'Try again in a while; answers that came are kept and not paid twice',
+      t`has a fault of its own (${status})`,
+      t`Try again in a while; answers that came are kept and not paid twice`,
     );
   return error(
     'request',
-    `refuses the request (${status})`,
-    'Choose another model: this one may lack the context or an option that the page asks for',
+    t`refuses the request (${status})`,
+    t`Choose another model: this one may lack the context or an option that the page asks for`,
   );
 }

@@ -1,5 +1,7 @@
 // Gemini's own protocol: POST {base}/models/{model}:generateContent.
+
 import * as v from 'valibot';
+import { t } from '../texts/texts';
 import { type Adapter, cutOff, outputBudget, unreadable } from './adapter';
 import { AskError, quoted } from './ask_error';
 import { plainReply, structuredPrompt, structuredSchema } from './structure';
@@ -58,7 +60,7 @@ export const gemini: Adapter = {
     if (text === '') {
       const reason = promptFeedback?.blockReason ?? candidate?.finishReason;
       if (reason === undefined || reason === 'STOP') throw unreadable(host);
-      throw new AskError('unreadable', host, `refuses to answer${quoted(reason)}`, 'Say it in other words');
+      throw new AskError('unreadable', host, `${t`refuses to answer`}${quoted(reason)}`, t`Say it in other words`);
     }
     return plainReply(text);
   },

@@ -1,5 +1,7 @@
 // One completion over fetch: time limit, retries with growing pauses, and every failure as an AskError.
+
 import { parseJson } from '../program/json';
+import { t } from '../texts/texts';
 import { type Adapter, type Call, type Reply, type Target, unreadable } from './adapter';
 import { anthropic } from './anthropic';
 import { AskError, refusal } from './ask_error';
@@ -103,8 +105,8 @@ async function exchange(url: string, request: RequestInit, target: Target, optio
       throw new AskError(
         'timeout',
         host,
-        `gave no answer within ${timeout / 1000} seconds`,
-        'Try again, or choose a faster model',
+        t`gave no answer within ${timeout / 1000} seconds`,
+        t`Try again, or choose a faster model`,
       );
     throw unreachable(target, host);
   }
@@ -116,21 +118,23 @@ function unreachable({ provider }: Target, host: string): AskError {
     return new AskError(
       'offline',
       '',
-      'This machine is offline',
-      'Connect it and send again: your request is still here',
+      t`This machine is offline`,
+      t`Connect it and send again: your request is still here`,
     );
   if (provider.keysAt === null)
     return new AskError(
       'blocked',
       host,
-      'cannot be reached from this page: the server is not running, or does not allow this page (CORS)',
-      provider.pitfalls[0] ? `Start it. ${provider.pitfalls[0].replace(/\.$/, '')}` : 'Start it, and allow this page',
+      t`cannot be reached from this page: the server is not running, or does not allow this page (CORS)`,
+      provider.pitfalls[0]
+        ? t`Start it. ${t(provider.pitfalls[0]).replace(/\.$/, '')}`
+        : t`Start it, and allow this page`,
     );
   return new AskError(
     'blocked',
     host,
-    'could not be reached, or the browser may not read its answer (CORS): some gateways answer a wrong key that way',
-    'Check the key first, then the base URL, the connection, and whether an extension blocks the host',
+    t`could not be reached, or the browser may not read its answer (CORS): some gateways answer a wrong key that way`,
+    t`Check the key first, then the base URL, the connection, and whether an extension blocks the host`,
   );
 }
 

@@ -1,5 +1,7 @@
 // The OpenAI protocol, which most others speak as well: POST {base}/chat/completions with a bearer key.
+
 import * as v from 'valibot';
+import { t } from '../texts/texts';
 import { type Adapter, cutOff, outputBudget, unreadable } from './adapter';
 import { AskError, quoted } from './ask_error';
 import { plainReply, structuredPrompt, structuredSchema } from './structure';
@@ -57,7 +59,12 @@ export const openai: Adapter = {
     const [{ finish_reason, message }] = read.output.choices;
     if (finish_reason === 'length') throw cutOff(host);
     if (message.refusal)
-      throw new AskError('unreadable', host, `refuses to answer${quoted(message.refusal)}`, 'Say it in other words');
+      throw new AskError(
+        'unreadable',
+        host,
+        `${t`refuses to answer`}${quoted(message.refusal)}`,
+        t`Say it in other words`,
+      );
     if (!message.content) throw unreadable(host);
     return plainReply(message.content);
   },

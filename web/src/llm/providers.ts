@@ -1,6 +1,7 @@
 // Who can be asked: hosts, protocols and what each wants said differently. The page's Content-Security-Policy is made from
 // this list (web/csp.ts), so that a key can go to none but these hosts.
 
+import { m, type Sentence, t } from '../texts/texts.ts';
 export type Protocol = 'openai' | 'anthropic' | 'gemini';
 
 export interface Provider {
@@ -18,15 +19,19 @@ export interface Provider {
   /** Name of the output limit in the OpenAI protocol: its newer models refuse `max_tokens`, other hosts know nothing else. */
   readonly limit: 'max_completion_tokens' | 'max_tokens';
   /** What has to be set up first, in sentences. */
-  readonly pitfalls: readonly string[];
+  readonly pitfalls: readonly Sentence[];
 }
+
+/** For people: servers on this machine say so. */
+export const titleOfProvider = ({ title, keysAt }: Provider): string =>
+  keysAt === null ? t`${title} on this machine` : title;
 
 const openai = { protocol: 'openai', structure: 'schema', sees: true, limit: 'max_tokens', pitfalls: [] } as const;
 
 /** Of a page on https and of one on this machine, towards a server on this machine. */
 const localPitfalls = [
-  'Chrome asks whether this page may reach your machine: allow it. Safari refuses when the page itself comes over https.',
-  'A small model may need several tries, and one answer after the other: begin with one vote.',
+  m`Chrome asks whether this page may reach your machine: allow it. Safari refuses when the page itself comes over https.`,
+  m`A small model may need several tries, and one answer after the other: begin with one vote.`,
 ] as const;
 
 export const providers: readonly Provider[] = [
@@ -94,24 +99,24 @@ export const providers: readonly Provider[] = [
   {
     ...openai,
     id: 'ollama',
-    title: 'Ollama on this machine',
+    title: 'Ollama',
     base: 'http://localhost:11434/v1',
     keysAt: null,
     pitfalls: [
-      'Ollama answers 403 to pages that it does not know: start it with OLLAMA_ORIGINS set to the address of this page.',
-      'Its context is short by default and cuts prompts without a word: set OLLAMA_CONTEXT_LENGTH to 16384 or more.',
+      m`Ollama answers 403 to pages that it does not know: start it with OLLAMA_ORIGINS set to the address of this page.`,
+      m`Its context is short by default and cuts prompts without a word: set OLLAMA_CONTEXT_LENGTH to 16384 or more.`,
       ...localPitfalls,
     ],
   },
   {
     ...openai,
     id: 'lmstudio',
-    title: 'LM Studio on this machine',
+    title: 'LM Studio',
     base: 'http://localhost:1234/v1',
     keysAt: null,
     pitfalls: [
-      'In LM Studio’s Developer tab, start the server and switch “Enable CORS” on.',
-      'Load the model with a context of 16384 tokens or more.',
+      m`In LM Studio’s Developer tab, start the server and switch “Enable CORS” on.`,
+      m`Load the model with a context of 16384 tokens or more.`,
       ...localPitfalls,
     ],
   },

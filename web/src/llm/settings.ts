@@ -1,11 +1,13 @@
 // Whom to ask and how: everything that the settings dialog holds but the key. Kept in the browser; the key is not here.
+
 import { computed, effect, signal } from '@preact/signals';
 import * as v from 'valibot';
+import { t } from '../texts/texts';
 import type { Target, Tokens } from './adapter';
 import { AskError } from './ask_error';
 import { defaultModel } from './default_models';
 import { keyFor } from './keys';
-import { isAllowed, isLocal, providerOf } from './providers';
+import { isAllowed, isLocal, providerOf, titleOfProvider } from './providers';
 
 /** The recorded answers that come with the page, which need no key. */
 export const recorded = 'recorded';
@@ -98,22 +100,23 @@ export function choose(provider: string, change: Partial<Choice>): void {
 /** Whom the present settings ask. @throws AskError that says what is missing */
 export function currentTarget(): Target {
   const provider = providerOf(settings.peek().provider);
-  if (provider === undefined) throw new AskError('settings', '', 'No provider is chosen', 'Choose one in the settings');
+  if (provider === undefined)
+    throw new AskError('settings', '', t`No provider is chosen`, t`Choose one in the settings`);
   const { base, model } = choiceOf(provider.id);
   if (!isAllowed(base))
     throw new AskError(
       'settings',
-      base || 'The base URL',
-      'is not an address that this page may talk to',
-      'Only the listed providers and http://localhost are open to it: choose one of them in the settings',
+      base || t`The base URL`,
+      t`is not an address that this page may talk to`,
+      t`Only the listed providers and http://localhost are open to it: choose one of them in the settings`,
     );
   const { key } = keyFor(base);
   if (key === '' && provider.keysAt !== null)
     throw new AskError(
       'no_key',
-      provider.title,
-      'wants a key',
-      'Enter one in the settings, or switch to the recorded answers there',
+      titleOfProvider(provider),
+      t`wants a key`,
+      t`Enter one in the settings, or switch to the recorded answers there`,
     );
   return { provider, base: base.replace(/\/+$/, ''), model, key };
 }

@@ -1,5 +1,6 @@
 // Where replies come from: a provider, with every reply kept, or the recordings that come with the page.
 
+import { t } from '../texts/texts';
 import type { Prompt } from '../worker/protocol';
 import type { Call, Reply, Target } from './adapter';
 import { AskError } from './ask_error';
@@ -51,12 +52,12 @@ export function liveSource(target: Target, { votes, cache, afresh = false, pictu
 }
 
 /** What is said of a prompt without a recording. */
-const nothingRecorded = {
-  cause: 'There is no recorded answer to this request',
-  fix: 'Choose one of the recorded requests, or enter a key in the settings to ask anything',
-};
+const nothingRecorded = () => ({
+  cause: t`There is no recorded answer to this request`,
+  fix: t`Choose one of the recorded requests, or enter a key in the settings to ask anything`,
+});
 
-export function recordedSource({ replies }: Recordings, { cause, fix } = nothingRecorded): Source {
+export function recordedSource({ replies }: Recordings, { cause, fix } = nothingRecorded()): Source {
   const of = ({ hash }: Prompt) => (Object.hasOwn(replies, hash) ? (replies[hash] ?? []) : []);
   return {
     votes: (prompt) => Math.max(1, of(prompt).length),

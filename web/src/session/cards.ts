@@ -1,4 +1,5 @@
 // What can be done with the cards as a whole: presets, groups, copies, all sliders back, the unit of lengths.
+import { t } from '../texts/texts';
 import { type Document, type LayerEntry, type LengthUnit, nameLimit, type Preset } from './document';
 import type { Session } from './session';
 
@@ -47,13 +48,13 @@ export function createCards({ change, document, entriesOf, sliderValue }: Sessio
         }) ?? [];
       if (copy === undefined) return null;
       const grouped = entry.group === undefined ? copy : { ...copy, group: entry.group };
-      change('duplicate edit', (now) => ({ ...now, layers: now.layers.toSpliced(at + 1, 0, grouped) }));
+      change(t`duplicate edit`, (now) => ({ ...now, layers: now.layers.toSpliced(at + 1, 0, grouped) }));
       return copy.key;
     },
-    resetAll: () => withValues('reset all sliders', () => 0),
+    resetAll: () => withValues(t`reset all sliders`, () => 0),
     setGroup(key, group) {
       const name = group?.trim().slice(0, nameLimit) || null;
-      change(name === null ? 'take out of its group' : `group “${name}”`, (now) => ({
+      change(name === null ? t`take out of its group` : t`group “${name}”`, (now) => ({
         ...now,
         layers: now.layers.map((entry) => {
           if (entry.key !== key) return entry;
@@ -66,20 +67,20 @@ export function createCards({ change, document, entriesOf, sliderValue }: Sessio
       const name = given.trim().slice(0, nameLimit);
       if (name === '') return;
       const values = new Map(document.peek().layers.map((entry) => [entry.key, sliderValue(entry)]));
-      withPresets(`preset “${name}”`, (presets) =>
+      withPresets(t`preset “${name}”`, (presets) =>
         [...presets.filter((preset) => preset.name !== name), { name, values }].slice(-mostPresets),
       );
     },
     applyPreset(name) {
       const preset = document.peek().presets?.find((other) => other.name === name);
       if (preset === undefined) return;
-      withValues(`preset “${name}”`, (entry) => preset.values.get(entry.key) ?? entry.value);
+      withValues(t`preset “${name}”`, (entry) => preset.values.get(entry.key) ?? entry.value);
     },
     removePreset(name) {
-      withPresets('remove preset', (presets) => presets.filter((preset) => preset.name !== name));
+      withPresets(t`remove preset`, (presets) => presets.filter((preset) => preset.name !== name));
     },
     setUnit(unit) {
-      change(unit === null ? 'unit of lengths' : `lengths in ${unit}`, (now): Document => {
+      change(unit === null ? t`unit of lengths` : t`lengths in ${unit}`, (now): Document => {
         const { unit: _, ...rest } = now;
         return unit === null ? rest : { ...rest, unit };
       });

@@ -1,6 +1,8 @@
 // The page's end of changing by hand what is one part: a worker for one step, ended when it is done or cancelled.
+
 import type { Carved, CarveStep } from '../carve/steps';
 import type { ModelFiles } from '../scene/load';
+import { t } from '../texts/texts';
 import type { CarveReply, CarveRequest } from '../worker/carve.worker';
 import { watched } from '../worker/watch';
 import { FileError } from './files';
@@ -16,7 +18,7 @@ export type Carver = (files: ModelFiles, step: CarveStep, options: RunOptions) =
 /** The files after a step, which they remember. Rejects with a FileError when it cannot be done, with the signal's reason. */
 export const carved: Carver = async (files, step, { signal, onProgress }) => {
   signal.throwIfAborted();
-  onProgress({ step: 'changing the parts', done: 0, total: 1 });
+  onProgress({ step: t`changing the parts`, done: 0, total: 1 });
   const reply = await ask({ files: { main: files.main, external: files.external }, step }, signal);
   if ('error' in reply) throw new FileError(reply.error);
   const { glb, ...rest } = reply;
@@ -51,11 +53,11 @@ async function ask(request: CarveRequest, signal: AbortSignal): Promise<CarveRep
   const worker = watched(
     (name) => new Worker(new URL('../worker/carve.worker.ts', import.meta.url), { type: 'module', name }),
   );
-  const ended = 'The browser ended what changes the parts: it may want too much memory. Choose smaller parts.';
+  const ended = t`The browser ended what changes the parts: it may want too much memory. Choose smaller parts.`;
   try {
     return await new Promise((resolve, reject) => {
       worker.onmessage = ({ data }: MessageEvent<CarveReply>) => resolve(data);
-      worker.onerror = ({ message }) => resolve({ error: message || 'The worker did not start. Reload the page.' });
+      worker.onerror = ({ message }) => resolve({ error: message || t`The worker did not start. Reload the page.` });
       worker.ondeath = () => resolve({ error: ended });
       signal.addEventListener('abort', () => reject(signal.reason), { once: true });
       worker.postMessage(request);

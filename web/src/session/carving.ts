@@ -1,7 +1,9 @@
 // Parts joined, split and cut by hand, and the whole stood up, each as a step that undo takes back. Names, labels and what is hidden go along; edits
 // do not, since they are about parts that are others then.
+
 import type { CarveStep, PartKey, Plane } from '../carve/steps';
 import type { Shape, Vec3 } from '../program/types';
+import { m, plural, t } from '../texts/texts';
 import { type CarvedFiles, type Carver, carved } from './carve';
 import { type Corrections, type Document, noCorrections, type OpenModel, partKey, withCorrections } from './document';
 import type { ModelCore } from './model_core';
@@ -11,9 +13,9 @@ import { realParts } from './several';
 
 /** Why nothing can be changed by hand now, in a sentence; null when it can. */
 export function whyUncarvable({ model, layers }: Document): string | null {
-  if (model === null) return 'Open a model first.';
-  if (layers.length > 0) return 'Take the edits back first: they belong to the parts as they are.';
-  if (model.files.cad !== undefined) return 'The parts of a CAD program are the program’s own: change them there.';
+  if (model === null) return t`Open a model first.`;
+  if (layers.length > 0) return t`Take the edits back first: they belong to the parts as they are.`;
+  if (model.files.cad !== undefined) return t`The parts of a CAD program are the program’s own: change them there.`;
   return null;
 }
 
@@ -24,12 +26,12 @@ export function keysOf(shape: Shape, ids: readonly string[]): PartKey[] {
 }
 
 const doing = {
-  join: 'Joining the parts',
-  divide: 'Splitting the part',
-  cut: 'Cutting the parts',
-  place: 'Standing the model up',
+  join: m`Joining the parts`,
+  divide: m`Splitting the part`,
+  cut: m`Cutting the parts`,
+  place: m`Standing the model up`,
 } as const;
-const done = { join: 'join parts', divide: 'split part', cut: 'cut parts', place: 'how it stands' } as const;
+const done = { join: m`join parts`, divide: m`split part`, cut: m`cut parts`, place: m`how it stands` } as const;
 
 /** Does a step as one of the history, and selects the new parts. False, and a sentence, when it cannot be done. */
 export async function carveModel(core: ModelCore, step: CarveStep, carve: Carver = carved): Promise<boolean> {
@@ -40,7 +42,7 @@ export async function carveModel(core: ModelCore, step: CarveStep, carve: Carver
     say(why ?? '', 'error');
     return false;
   }
-  const made = await run(doing[step.kind], async (options) => {
+  const made = await run(t(doing[step.kind]), async (options) => {
     const found = await carve(model.files, step, options);
     const labels = new Map([...model.labels].map(([key, label]) => [newKey(found, key), label]));
     const corrections = correctionsAfter(model, step, found);
@@ -51,19 +53,22 @@ export async function carveModel(core: ModelCore, step: CarveStep, carve: Carver
   });
   if (made === null || document.peek().model !== model) return false;
   const { found } = made;
-  replaceDocument(onto(before, made.model, found), done[step.kind]);
+  replaceDocument(onto(before, made.model, found), t(done[step.kind]));
   if (step.kind === 'place') return true;
   const isNew = new Set(found.made);
   selectAll(made.model.shape.parts.filter((part) => !part.virtual && isNew.has(partKey(part))).map(({ id }) => id));
-  if (found.lost.length > 0) say(`The file loses ${found.lost.slice(0, 3).join(', ')}, which is not known here.`);
+  if (found.lost.length > 0) say(t`The file loses ${found.lost.slice(0, 3).join(', ')}, which is not known here.`);
   else if (found.open.length > 0) say(openWords(found.open));
   return true;
 }
 
 const openWords = (names: readonly string[]): string =>
-  names.length === 1
-    ? `The cut through ${names[0]} stays open: only closed solids are closed again.`
-    : `The cuts through ${names.length} parts stay open (${names.slice(0, 3).join(', ')}${names.length > 3 ? ', …' : ''}): only closed solids are closed again.`;
+  plural(
+    names.length,
+    'The cut through {0} stays open: only closed solids are closed again.',
+    'The cuts through {n} parts stay open ({0}): only closed solids are closed again.',
+    `${names.slice(0, 3).join(', ')}${names.length > 3 ? ', …' : ''}`,
+  );
 
 const newKey = ({ moved }: Pick<CarvedFiles, 'moved'>, key: PartKey): PartKey =>
   moved.find(([from]) => from === key)?.[1] ?? key; // parts of one node: few

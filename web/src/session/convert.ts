@@ -1,6 +1,8 @@
 // The page's end of reading other formats: a worker for one file, ended when it is done or cancelled.
+
 import type { Converted } from '../formats/convert';
 import type { ModelFiles } from '../scene/load';
+import { t } from '../texts/texts';
 import type { ConvertRequest } from '../worker/convert.worker';
 import { askOnce } from '../worker/once';
 import type { Progress } from '../worker/protocol';
@@ -17,7 +19,7 @@ export async function converted(
   const { format } = files;
   if (format === undefined) return files; // the same object: that is what the core and the store know it by
   signal.throwIfAborted();
-  onProgress({ step: `reading ${format.kind.toUpperCase()}`, done: 0, total: 1 });
+  onProgress({ step: t`reading ${format.kind.toUpperCase()}`, done: 0, total: 1 });
   const source = { path: format.path, main: files.main, external: files.external };
   const request: ConvertRequest = { source, format: format.kind, limit: fileLimits.bytes };
   const reply = await askOnce<Converted>(
@@ -25,8 +27,8 @@ export async function converted(
     request,
     {
       signal,
-      unstarted: 'The reader did not start. Reload the page.',
-      ended: `The browser ended the reader of ${format.kind.toUpperCase()}: it may want too much memory. Open a smaller model.`,
+      unstarted: t`The reader did not start. Reload the page.`,
+      ended: t`The browser ended the reader of ${format.kind.toUpperCase()}: it may want too much memory. Open a smaller model.`,
     },
   );
   if ('error' in reply) throw new FileError(reply.error);

@@ -1,5 +1,7 @@
 // The page's one core: started with the page, and what the page knows about it.
+
 import { computed, signal } from '@preact/signals';
+import { t } from '../texts/texts';
 import type { CoreClient } from '../worker/client';
 import { startCore, withModules } from '../worker/modules';
 import { type ModelCore, modelCore } from './model_core';
@@ -27,6 +29,6 @@ export async function start(): Promise<void> {
     core.value = { kind: 'ready', version: result.version, client: started };
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);
-    core.value = { kind: 'failed', text: `The core could not be loaded (${reason}). Reload the page to try again.` };
+    core.value = { kind: 'failed', text: t`The core could not be loaded (${reason}). Reload the page to try again.` };
   }
 }

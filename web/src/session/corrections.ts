@@ -1,6 +1,8 @@
 // Joints and mirror images put right by hand, each as a step that undo takes back: the shape is abstracted anew, and the
 // edits that were propagated are propagated once more, with what holds now.
+
 import { isAttachment, isReflection, type Shape, type ShapePart, type ShapeRelation } from '../program/types';
+import { m, plural, type Sentence, t } from '../texts/texts';
 import {
   type Correction,
   type Corrections,
@@ -84,17 +86,21 @@ const withCorrection = (corrections: Corrections, made: Correction): Corrections
   made,
 ];
 
-const steps: Readonly<Record<Correction['kind'], string>> = {
-  joined: 'add a joint',
-  loose: 'loosen a joint',
-  apart: 'remove a joint',
-  mirrored: 'add a mirror image',
-  unmirrored: 'remove a mirror image',
+const steps: Readonly<Record<Correction['kind'], Sentence>> = {
+  joined: m`add a joint`,
+  loose: m`loosen a joint`,
+  apart: m`remove a joint`,
+  mirrored: m`add a mirror image`,
+  unmirrored: m`remove a mirror image`,
 };
 
 /** Declares what two parts are to each other. False, and a sentence, when they cannot be that. */
 export const correct = (core: ModelCore, made: Correction): Promise<boolean> =>
-  reabstract(core, withCorrection(session.document.peek().model?.corrections ?? noCorrections, made), steps[made.kind]);
+  reabstract(
+    core,
+    withCorrection(session.document.peek().model?.corrections ?? noCorrections, made),
+    t(steps[made.kind]),
+  );
 
 /** Takes a correction back, or all of them. */
 export const uncorrect = (core: ModelCore, gone: Correction | null): Promise<boolean> =>
@@ -103,7 +109,7 @@ export const uncorrect = (core: ModelCore, gone: Correction | null): Promise<boo
     gone === null
       ? noCorrections
       : (session.document.peek().model?.corrections ?? noCorrections).filter((other) => other !== gone),
-    'joints as they were found',
+    t`joints as they were found`,
   );
 
 async function reabstract(core: ModelCore, corrections: Corrections, step: string): Promise<boolean> {
@@ -112,7 +118,7 @@ async function reabstract(core: ModelCore, corrections: Corrections, step: strin
   const { model } = before;
   if (model === null) return false;
   const known = new Set(warningsOf(model.shape));
-  const made = await run('Looking at the parts again', async (options) => {
+  const made = await run(t`Looking at the parts again`, async (options) => {
     const shape = await core.open(model.files, options, model.labels, corrections);
     const refused = warningsOf(shape).find((warning) => !known.has(warning));
     if (refused !== undefined) return { refused };
@@ -121,11 +127,11 @@ async function reabstract(core: ModelCore, corrections: Corrections, step: strin
   });
   if (made === null) return false;
   if ('refused' in made) {
-    say(`That cannot be. ${made.refused}.`, 'error');
+    say(t`That cannot be. ${made.refused}.`, 'error');
     return false;
   }
   if (document.peek() !== before) {
-    say('The work has changed meanwhile, so that nothing was done. Try again.', 'error');
+    say(t`The work has changed meanwhile, so that nothing was done. Try again.`, 'error');
     return false;
   }
   session.replaceDocument(made.document, step);
@@ -159,7 +165,7 @@ async function propagatedAgain(core: ModelCore, carried: Document, options: RunO
       made.push(entry);
       continue;
     }
-    options.onProgress({ step: 'working out the edits again', done: i, total: layers.length });
+    options.onProgress({ step: t`working out the edits again`, done: i, total: layers.length });
     try {
       const found = await core.propagate(model, editOf(entry.layer), { signal: options.signal });
       made.push(inPlaceOf(entry, withRequest(found.program, entry.layer.request).layers, found.trace));
@@ -197,7 +203,16 @@ function inPlaceOf(entry: LayerEntry, [found]: readonly LayerEntry['layer'][], t
   };
 }
 
-const counted = (count: number, one: string, several = `${one}s`) => (count === 1 ? `1 ${one}` : `${count} ${several}`);
+const joints = {
+  gone: (n: number) => plural(n, '{n} joint removed', '{n} joints removed'),
+  fresh: (n: number) => plural(n, '{n} joint added', '{n} joints added'),
+  other: (n: number) => plural(n, '{n} joint changed', '{n} joints changed'),
+};
+const mirrors = {
+  gone: (n: number) => plural(n, '{n} mirror image removed', '{n} mirror images removed'),
+  fresh: (n: number) => plural(n, '{n} mirror image added', '{n} mirror images added'),
+  other: (n: number) => plural(n, '{n} mirror image changed', '{n} mirror images changed'),
+};
 
 /** "4 joints removed, 2 mirror images added." What a correction did, its images among it. */
 function changesWords(before: Shape, after: Shape): string {
@@ -213,24 +228,35 @@ function changesWords(before: Shape, after: Shape): string {
   };
   const [was, is] = [of(before), of(after)];
   const clauses = ['joint', 'mirror image'].flatMap((what) => {
+    const words = what === 'joint' ? joints : mirrors;
     const gone = [...was.keys()].filter((key) => key.startsWith(what) && !is.has(key)).length;
     const fresh = [...is.keys()].filter((key) => key.startsWith(what) && !was.has(key)).length;
     const other = [...is].filter(([key, kind]) => key.startsWith(what) && was.has(key) && was.get(key) !== kind).length;
     return [
-      ...(gone > 0 ? [`${counted(gone, what)} removed`] : []),
-      ...(fresh > 0 ? [`${counted(fresh, what)} added`] : []),
-      ...(other > 0 ? [`${counted(other, what)} changed`] : []),
+      ...(gone > 0 ? [words.gone(gone)] : []),
+      ...(fresh > 0 ? [words.fresh(fresh)] : []),
+      ...(other > 0 ? [words.other(other)] : []),
     ];
   });
-  return clauses.length === 0 ? 'Nothing is held otherwise by it.' : `${clauses.join(', ')}.`;
+  return clauses.length === 0 ? t`Nothing is held otherwise by it.` : `${clauses.join(', ')}.`;
 }
 
 function editsWords({ document, again, failed, left }: Again): string {
   const rests = document.layers.filter(({ layer }) => document.model && misfit(document.model.shape, layer)).length;
   return [
-    ...(again > 0 ? [`${counted(again, 'edit')} worked out again.`] : []),
-    ...(left > 0 ? [`${counted(left, 'edit')} written by hand as before.`] : []),
-    ...(failed > 0 ? [`${counted(failed, 'edit')} could not be worked out again.`] : []),
-    ...(rests > 0 ? [`${counted(rests, 'edit')} no longer fit the parts and rest; undo brings them back.`] : []),
+    ...(again > 0 ? [plural(again, '{n} edit worked out again.', '{n} edits worked out again.')] : []),
+    ...(left > 0 ? [plural(left, '{n} edit written by hand as before.', '{n} edits written by hand as before.')] : []),
+    ...(failed > 0
+      ? [plural(failed, '{n} edit could not be worked out again.', '{n} edits could not be worked out again.')]
+      : []),
+    ...(rests > 0
+      ? [
+          plural(
+            rests,
+            '{n} edit no longer fits the parts and rests; undo brings it back.',
+            '{n} edits no longer fit the parts and rest; undo brings them back.',
+          ),
+        ]
+      : []),
   ].join(' ');
 }

@@ -1,11 +1,13 @@
 // What differences and intersections leave of the parts of a CAD program, worked out in a worker of its own for one state
 // after the other: always for the latest that is asked for, whatever came in between.
+
 import type { Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
 import type { CadProgram } from '../solid/cad';
 import type { State } from '../solid/cut';
 import type { Box, LocalCut } from '../solid/cut_model';
 import { stepsOf } from '../solid/steps';
+import { t } from '../texts/texts';
 import type { CutOpen, CutReply, CutRequest } from '../worker/cut.worker';
 import { watched } from '../worker/watch';
 import type { Document, OpenModel } from './document';
@@ -64,8 +66,8 @@ export class Cutter {
     });
     this.#worker = watched(create);
     this.#worker.onmessage = ({ data }: MessageEvent<CutReply>) => this.#receive(data);
-    this.#worker.onerror = ({ message }) => this.onFailure?.(message || 'what cuts did not start');
-    this.#worker.ondeath = () => this.onFailure?.('the browser ended what cuts');
+    this.#worker.onerror = ({ message }) => this.onFailure?.(message || t`what cuts did not start`);
+    this.#worker.ondeath = () => this.onFailure?.(t`the browser ended what cuts`);
     this.#worker.postMessage({ program, glb: files.main, boxes } satisfies CutOpen);
   }
 
@@ -144,7 +146,7 @@ export async function firstCuts(model: OpenModel, signal: AbortSignal): Promise<
   try {
     return await new Promise((resolve, reject) => {
       cutter.onCuts = () => resolve(null);
-      cutter.onFailure = (reason) => resolve(`The parts are drawn uncut: ${reason}.`);
+      cutter.onFailure = (reason) => resolve(t`The parts are drawn uncut: ${reason}.`);
       signal.addEventListener('abort', () => reject(signal.reason), { once: true });
       cutter.ask(
         shape.parts.flatMap(({ corners }) => corners.flat()),

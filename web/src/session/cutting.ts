@@ -1,7 +1,9 @@
 // The plane that parts are about to be cut by: along which direction it stands, and where.
+
 import { computed, signal } from '@preact/signals';
 import type { Plane } from '../carve/steps';
 import type { Shape, Vec3 } from '../program/types';
+import { m, type Sentence } from '../texts/texts';
 import { keysOf, planeInFile } from './carving';
 import { selected } from './session';
 import { realParts } from './several';
@@ -9,7 +11,9 @@ import { realParts } from './several';
 /** A direction that a cut can stand across, in the normalised frame, of length 1. */
 export interface CutDirection {
   readonly id: string;
-  readonly label: string;
+  /** Said with `t`, of the part's own axis `own`. */
+  readonly label: Sentence;
+  readonly own?: number;
   readonly normal: Vec3;
 }
 
@@ -25,9 +29,9 @@ export interface Cutting {
 export const cutting = signal<Cutting | null>(null);
 
 const global: readonly CutDirection[] = [
-  { id: 'x', label: 'Left from right', normal: [1, 0, 0] },
-  { id: 'y', label: 'Top from bottom', normal: [0, 1, 0] },
-  { id: 'z', label: 'Front from back', normal: [0, 0, 1] },
+  { id: 'x', label: m`Left from right`, normal: [1, 0, 0] },
+  { id: 'y', label: m`Top from bottom`, normal: [0, 1, 0] },
+  { id: 'z', label: m`Front from back`, normal: [0, 0, 1] },
 ];
 /** A part's own axis that is nearer than this (cosine, 3°) to one of the model's is no direction of its own. */
 const sameWay = 0.9986;
@@ -39,7 +43,10 @@ export function cutDirections(shape: Shape, ids: readonly string[]): readonly Cu
   const [first] = realParts(shape, ids);
   const part = shape.parts.find(({ id }) => id === first);
   const own = (part?.axes ?? []).filter((axis) => global.every(({ normal }) => Math.abs(dot(axis, normal)) < sameWay));
-  return [...global, ...own.map((normal, i) => ({ id: `own ${i}`, label: `Across its own axis ${i + 1}`, normal }))];
+  return [
+    ...global,
+    ...own.map((normal, i) => ({ id: `own ${i}`, label: m`Across its own axis {0}`, own: i + 1, normal })),
+  ];
 }
 
 /** The plane as it stands: through which point, across which direction, how far the parts reach about it. */

@@ -1,5 +1,7 @@
 // The page's end of decompression: a worker for one file, ended when it is done or cancelled.
+
 import type { ModelFiles } from '../scene/load';
+import { t } from '../texts/texts';
 import type { Decompressed } from '../worker/decompress';
 import { askOnce } from '../worker/once';
 import type { Progress } from '../worker/protocol';
@@ -24,23 +26,23 @@ export async function decompressed(
   const compression = (Array.isArray(used) ? used : []).map((name) => compressions.get(name)).find(Boolean);
   if (compression === undefined) return files;
   signal.throwIfAborted();
-  onProgress({ step: `decompressing ${compression}`, done: 0, total: 1 });
+  onProgress({ step: t`decompressing ${compression}`, done: 0, total: 1 });
   const reply = await askOnce<Decompressed>(
     (name) => new Worker(new URL('../worker/decompress.worker.ts', import.meta.url), { type: 'module', name }),
     files,
     {
       signal,
-      unstarted: 'the decoder did not start',
-      ended: 'the browser ended the decoder: it may want too much memory',
+      unstarted: t`the decoder did not start`,
+      ended: t`the browser ended the decoder: it may want too much memory`,
     },
   );
   if ('error' in reply) {
     throw new FileError(
-      `${files.name}: its ${compression} data cannot be read (${reply.error}). Export it again, without compression if need be.`,
+      t`${files.name}: its ${compression} data cannot be read (${reply.error}). Export it again, without compression if need be.`,
     );
   }
   if (reply.glb.length > fileLimits.bytes) {
-    throw new FileError(`${files.name} is more than 512 MB when it is decompressed. Open a smaller model.`);
+    throw new FileError(t`${files.name} is more than 512 MB when it is decompressed. Open a smaller model.`);
   }
   return { name: files.name, main: reply.glb, external: new Map(), decompressed: { compression, lost: reply.lost } };
 }

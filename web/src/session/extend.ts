@@ -1,4 +1,5 @@
 // A slider that goes on beyond its end, where what was typed lies there and everything still holds.
+import { t } from '../texts/texts';
 import { emptyProgram, type LayerEntry } from './document';
 import { titleOf } from './layers';
 import type { Measure } from './measure';
@@ -57,13 +58,13 @@ export async function extendTo(core: ModelCore, entry: LayerEntry, measure: Meas
   const to = solveBeyond(entry, measure, wanted);
   if (model === null || to === null) return false;
   const program = { ...emptyProgram(model.shape), layers: [entry.layer] };
-  const extended = await run('Seeing how far it goes', () => core.extend(model, program, 0, to));
+  const extended = await run(t`Seeing how far it goes`, () => core.extend(model, program, 0, to));
   const layer = extended?.layers[0];
   const now = document.peek().layers.find(({ key }) => key === entry.key);
   if (layer === undefined || now?.layer !== entry.layer) return false;
   const { min, max } = layer.parameter;
   const value = Math.min(max, Math.max(min, to));
-  change(`slide “${titleOf(entry.layer)}”`, (before) => ({
+  change(t`slide “${titleOf(entry.layer)}”`, (before) => ({
     ...before,
     layers: before.layers.map((other) => (other.key === entry.key ? { ...other, layer, value } : other)),
   }));

@@ -1,9 +1,11 @@
 // What can be done to the family of a CAD program: moving its sliders one by one or as a mixture, choosing what its
 // variations share, keeping a variation. Each is one step of the history.
+
 import { batch, type Signal, signal } from '@preact/signals';
 import { parseJson } from '../program/json';
 import { errorMessage } from '../program/types';
 import type { CadSource, ModelFiles } from '../scene/load';
+import { plural, t } from '../texts/texts';
 import type { Document, LayerEntry } from './document';
 import { activeLayers, type Evaluation } from './evaluation';
 import {
@@ -49,7 +51,7 @@ export async function withProgramRead(core: ModelCore, files: FoundFiles, option
 
 function variationsIn(bytes: Uint8Array): unknown {
   const read = parseJson(new TextDecoder().decode(bytes));
-  if (!read.ok) throw new FileError(`The variations beside the program cannot be read: ${errorMessage(read.error)}`);
+  if (!read.ok) throw new FileError(t`The variations beside the program cannot be read: ${errorMessage(read.error)}`);
   return read.value;
 }
 
@@ -139,7 +141,7 @@ export function createFamily(
     batch(() => {
       if (settle) {
         mixing.value = null;
-        const label = `mix in “${family.found.family.variations[variation]?.name ?? ''}”`;
+        const label = t`mix in “${family.found.family.variations[variation]?.name ?? ''}”`;
         const next = { ...document.peek(), layers: layersAt(family, setting), family: { ...family, weights } };
         history.push(label, next, `mix ${variation}`);
       } else {
@@ -165,7 +167,7 @@ export function createFamily(
     }
     const setting = variation === null ? baseOf(family) : settingOf(family, variation);
     const weights = family.weights.map((_, i) => (i === variation ? 1 : 0));
-    history.push(`show “${shown?.name ?? model.shape.name}”`, {
+    history.push(t`show “${shown?.name ?? model.shape.name}”`, {
       ...document.peek(),
       layers: layersAt(family, setting),
       hidden: absent,
@@ -178,7 +180,7 @@ export function createFamily(
     const { model, family: asked } = document.peek();
     const cad = model?.files.cad;
     if (model === null || cad === undefined || asked === undefined) return false;
-    const answer = await run('Looking for what they share', (options) =>
+    const answer = await run(t`Looking for what they share`, (options) =>
       core.findFamily({ cad: cad.program, variations, choices }, options),
     );
     const { family } = document.peek();
@@ -200,8 +202,12 @@ export function createFamily(
       family: { ...source, weights, keys: entries.map(({ key }) => key) },
     });
     const [before, after] = [family.keys.length, entries.length];
-    const same = before === after ? ', as before: the rest of what they share implies it' : `, ${before} before`;
-    say(`${after} ${after === 1 ? 'slider' : 'sliders'}${same}.`);
+    const sliders = plural(after, '{n} slider', '{n} sliders');
+    say(
+      before === after
+        ? t`${sliders}, as before: the rest of what they share implies it.`
+        : t`${sliders}, ${before} before.`,
+    );
     return true;
   }
 
@@ -212,7 +218,7 @@ export function createFamily(
     for (const [id, choice] of changes)
       if (choice === null) delete choices[id];
       else choices[id] = choice;
-    await find(core, family.variations, choices, 'choose what they share');
+    await find(core, family.variations, choices, t`choose what they share`);
   }
 
   async function keepVariation(core: ModelCore, name: string): Promise<boolean> {
@@ -220,7 +226,7 @@ export function createFamily(
     if (family === undefined || model?.files.cad === undefined) return false;
     const moved = activeLayers(document.peek()).some(({ key, value }) => !family.keys.includes(key) && value !== 0);
     if (moved) {
-      say('A variation is made of the sliders of the family alone: put the edits beside it back to 0 first.', 'error');
+      say(t`A variation is made of the sliders of the family alone: put the edits beside it back to 0 first.`, 'error');
       return false;
     }
     const ids = shapeIds(model.files.cad, model.shape);
@@ -241,7 +247,7 @@ export function createFamily(
     const names = new Set(added.map(({ name }) => name));
     const others = (family.variations?.variations ?? []).filter(({ name }) => !names.has(name));
     const variations = { format: 'parsel/variations', version: 1, variations: [...others, ...added] };
-    const label = added.length === 1 ? `keep “${first.name}”` : `keep ${added.length} kinds`;
+    const label = added.length === 1 ? t`keep “${first.name}”` : t`keep ${added.length} kinds`;
     return find(core, variations, family.choices, label);
   }
 
@@ -250,7 +256,7 @@ export function createFamily(
     const list = family?.variations?.variations;
     if (family === undefined || list === undefined) return;
     const variations = { ...family.variations, variations: list.filter((_, i) => i !== variation) };
-    await find(core, variations, family.choices, `remove “${list[variation]?.name ?? ''}”`);
+    await find(core, variations, family.choices, t`remove “${list[variation]?.name ?? ''}”`);
   }
 
   return { mixing, settingNow, isAt, mix, showVariation, choose, keepVariation, addVariations, removeVariation };

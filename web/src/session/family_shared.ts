@@ -1,8 +1,10 @@
 // What the variations of a program have in common, in plain words: its constraints by class, so that four legs make one
 // line and not sixteen. The core names features "seat.x-" (a face), "leg.sy" (a size), "wheel.x" (an axis), "seat.x-y+z-"
 // (a corner); frame and words as everywhere: own left is +x, +y is up, front is +z.
+
 import type { LocalTriple } from '../program/types';
 import type { CadPart } from '../scene/load';
+import { listed, m, plural, type Sentence, t } from '../texts/texts';
 import type { Constraint } from '../worker/family_protocol';
 import type { Choice } from './family_state';
 
@@ -117,63 +119,91 @@ function facesOf({ part, what }: Feature): { part: string; feature: LocalTriple 
 /** "the legs", "the seat" */
 function nameOf({ stem }: Feature, parts: ReadonlySet<string>, byId: ReadonlyMap<string, CadPart>): string {
   const [only = ''] = parts;
-  if (parts.size === 1) return `the ${byId.get(only)?.name ?? only}`;
+  if (parts.size === 1) return t`the ${byId.get(only)?.name ?? only}`;
   const noun = stem.replaceAll('_', ' ');
-  return `the ${noun}${/(s|x|z|ch|sh)$/.test(noun) ? 'es' : 's'}`;
+  return t`the ${`${noun}${/(s|x|z|ch|sh)$/.test(noun) ? 'es' : 's'}`}`;
 }
 
-const sizeWords: Readonly<Record<string, string>> = { sx: 'width', sy: 'height', sz: 'depth', top: 'top diameter' };
-const alikeWords: Readonly<Record<string, string>> = {
-  sx: 'equally wide',
-  sy: 'equally high',
-  sz: 'equally deep',
-  top: 'equally wide at the top',
+const sizeWords: Readonly<Record<string, Sentence>> = {
+  sx: m`width`,
+  sy: m`height`,
+  sz: m`depth`,
+  top: m`top diameter`,
 };
-const flushWords: Readonly<Record<string, string>> = {
-  x: 'flush at the sides',
-  'y-': 'on one level below',
-  'y+': 'on one level above',
-  'z-': 'flush at the back',
-  'z+': 'flush in front',
-};
-const lineWords = ['in line from side to side', 'centred above one another', 'in line from front to back'];
+const sizeWord = (what: string) => (sizeWords[what] ? t(sizeWords[what]) : what);
 
-const are = (name: string, count: number) => `${capital(name)} ${count === 1 ? 'is' : 'are'}`;
+/** A sentence on as many parts as `count` under one name. */
+type Say = (count: number, name: string) => string;
+const alike: Readonly<Record<string, Say>> = {
+  sx: (count, name) => plural(count, '{0} is equally wide', '{0} are equally wide', name),
+  sy: (count, name) => plural(count, '{0} is equally high', '{0} are equally high', name),
+  sz: (count, name) => plural(count, '{0} is equally deep', '{0} are equally deep', name),
+  top: (count, name) => plural(count, '{0} is equally wide at the top', '{0} are equally wide at the top', name),
+};
+const alikeAtAll: Say = (count, name) => plural(count, '{0} is equally large', '{0} are equally large', name);
+const flush: Readonly<Record<string, Say>> = {
+  x: (count, name) => plural(count, '{0} is flush at the sides', '{0} are flush at the sides', name),
+  'y-': (count, name) => plural(count, '{0} is on one level below', '{0} are on one level below', name),
+  'y+': (count, name) => plural(count, '{0} is on one level above', '{0} are on one level above', name),
+  'z-': (count, name) => plural(count, '{0} is flush at the back', '{0} are flush at the back', name),
+  'z+': (count, name) => plural(count, '{0} is flush in front', '{0} are flush in front', name),
+};
+const flushAtAll: Say = (count, name) => plural(count, '{0} is flush', '{0} are flush', name);
+const inLine: readonly Say[] = [
+  (count, name) => plural(count, '{0} is in line from side to side', '{0} are in line from side to side', name),
+  (count, name) => plural(count, '{0} is centred above one another', '{0} are centred above one another', name),
+  (count, name) => plural(count, '{0} is in line from front to back', '{0} are in line from front to back', name),
+];
+const atOnePoint: Say = (count, name) => plural(count, '{0} is at one point', '{0} are at one point', name);
+const betweenFlush: Readonly<Record<string, Sentence>> = {
+  x: m`{0} and {1}: flush at the sides`,
+  'y-': m`{0} and {1}: on one level below`,
+  'y+': m`{0} and {1}: on one level above`,
+  'z-': m`{0} and {1}: flush at the back`,
+  'z+': m`{0} and {1}: flush in front`,
+};
+const betweenLines = [
+  m`{0} and {1}: in line from side to side`,
+  m`{0} and {1}: centred above one another`,
+  m`{0} and {1}: in line from front to back`,
+];
+
 const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** Of parts with one stem, or within one part. */
-function alikeText(kind: Constraint['kind'], a: Feature, b: Feature, name: string, count: number): string {
-  if (kind === 'equal' && a.what === b.what) return `${are(name, count)} ${alikeWords[a.what] ?? 'equally large'}`;
+function alikeText(kind: Constraint['kind'], a: Feature, b: Feature, parts: string, count: number): string {
+  const name = capital(parts);
+  if (kind === 'equal' && a.what === b.what) return (alike[a.what] ?? alikeAtAll)(count, name);
   if (kind === 'equal') {
-    const words = [sizeWords[a.what] ?? a.what, sizeWords[b.what] ?? b.what].join(' and ');
-    return `${are(name, count)} alike in ${words}`;
+    const words = listed([sizeWord(a.what), sizeWord(b.what)]);
+    return plural(count, '{0} is alike in {1}', '{0} are alike in {1}', name, words);
   }
   if (kind === 'coplanar') {
-    const isSame = side(a.what) === side(b.what);
-    return isSame ? `${are(name, count)} ${flushWords[side(a.what)] ?? 'flush'}` : `${are(name, count)} end to end`;
+    if (side(a.what) === side(b.what)) return (flush[side(a.what)] ?? flushAtAll)(count, name);
+    return plural(count, '{0} is end to end', '{0} are end to end', name);
   }
-  return `${are(name, count)} ${kind === 'coaxial' ? lineWords[axisOf(a.what)] : 'at one point'}`;
+  return ((kind === 'coaxial' && inLine[axisOf(a.what)]) || atOnePoint)(count, name);
 }
 
 function betweenText(kind: Constraint['kind'], a: Feature, b: Feature, first: string, second: string): string {
+  const [name, other] = [capital(first), second];
   if (kind === 'equal') {
-    const [left, right] = [sizeWords[a.what] ?? a.what, sizeWords[b.what] ?? b.what];
+    const [left, right] = [sizeWord(a.what), sizeWord(b.what)];
     return left === right
-      ? `${capital(first)} and ${second}: the same ${left}`
-      : `The ${left} of ${first} is the ${right} of ${second}`;
+      ? t`${name} and ${other}: the same ${left}`
+      : t`The ${left} of ${first} is the ${right} of ${second}`;
   }
-  const both = `${capital(first)} and ${second}`;
-  if (kind === 'coaxial') return `${both}: ${lineWords[axisOf(a.what)] ?? 'in line'}`;
-  if (kind === 'coincident') return `${both} meet at a point`;
-  if (side(a.what) === side(b.what) && a.what[0] !== 'x') return `${both}: ${flushWords[a.what] ?? 'flush'}`;
-  if (a.what === b.what) return `${both}: ${flushWords[side(a.what)] ?? 'flush'}`;
+  if (kind === 'coaxial') return t(betweenLines[axisOf(a.what)] ?? m`{0} and {1}: in line`, name, other);
+  if (kind === 'coincident') return t`${name} and ${other} meet at a point`;
+  if ((side(a.what) === side(b.what) && a.what[0] !== 'x') || a.what === b.what)
+    return t(betweenFlush[side(a.what)] ?? m`{0} and {1}: flush`, name, other);
   if (a.what[0] === 'y') {
     const [upper, lower] = a.what === 'y-' ? [first, second] : [second, first];
-    return `${capital(upper)} on top of ${lower}`;
+    return t`${capital(upper)} on top of ${lower}`;
   }
   if (a.what[0] === 'z') {
     const [front, behind] = a.what === 'z-' ? [first, second] : [second, first];
-    return `${capital(front)} right in front of ${behind}`;
+    return t`${capital(front)} right in front of ${behind}`;
   }
-  return `${both}: side by side`;
+  return t`${name} and ${other}: side by side`;
 }

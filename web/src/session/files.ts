@@ -1,8 +1,10 @@
 // From what a person drops, picks or points at to one model: a .glb, a .gltf with its files, a file of another format, a
 // folder, a zip.
+
 import { type Format, formats } from '../formats/model';
 import { jsonLimits, parseJson } from '../program/json';
 import type { ModelFiles } from '../scene/load';
+import { listed, m, type Sentence, t } from '../texts/texts';
 import { mayFetchFrom, modelHosts } from './model_hosts';
 
 /** Running limits on what is read, against archives that are bombs. */
@@ -29,14 +31,14 @@ const extension = (path: string) => /\.([^./]+)$/.exec(path)?.[1]?.toLowerCase()
 const baseName = (path: string) => path.slice(path.lastIndexOf('/') + 1);
 const isZip = (bytes: Uint8Array) => bytes[0] === 0x50 && bytes[1] === 0x4b && bytes[2] === 3 && bytes[3] === 4;
 
-const tooMany = () => new FileError('That is more than 10,000 files. Open the model alone.');
+const tooMany = () => new FileError(t`That is more than 10,000 files. Open the model alone.`);
 
 class Budget {
   #bytes = 0;
   #entries = 0;
   takeBytes(bytes: number): void {
     this.#bytes += bytes;
-    if (this.#bytes > fileLimits.bytes) throw new FileError('That is more than 512 MB. Open a smaller model.');
+    if (this.#bytes > fileLimits.bytes) throw new FileError(t`That is more than 512 MB. Open a smaller model.`);
   }
   take(bytes: number): void {
     this.takeBytes(bytes);
@@ -105,7 +107,7 @@ async function unpack(bytes: Uint8Array): Promise<FileSet> {
         return !name.endsWith('/');
       };
       unzip(bytes, { filter }, (error, files) => {
-        if (error) reject(new FileError('This zip file is damaged. Pack it again, or open the model itself.'));
+        if (error) reject(new FileError(t`This zip file is damaged. Pack it again, or open the model itself.`));
         else resolve(new Map(Object.entries(files)));
       });
     } catch (error) {
@@ -166,8 +168,8 @@ const plain = (name: string) => name.replace(/\.[^.]+$/, '');
 
 function unreadable(paths: readonly string[]): string {
   const kinds = [...new Set(paths.map(extension).filter(Boolean))].slice(0, 3).map((kind) => `.${kind}`);
-  const what = kinds.length > 0 ? `${kinds.join(', ')} cannot be opened here.` : 'There is no model in it.';
-  return `${what} Open a .glb, a .gltf with its files, an .obj, .3mf, .ply, .stl, .scad or .csg, or a folder or zip that holds one.`;
+  const what = kinds.length > 0 ? t`${kinds.join(', ')} cannot be opened here.` : t`There is no model in it.`;
+  return t`${what} Open a .glb, a .gltf with its files, an .obj, .3mf, .ply, .stl, .scad or .csg, or a folder or zip that holds one.`;
 }
 
 /** The JSON of a .gltf or of a .glb's first chunk; null when it is neither. */
@@ -185,17 +187,17 @@ export function gltfJson(bytes: Uint8Array): Record<string, unknown> | null {
 }
 
 /** Extensions without which a file cannot be shown, and what to do about each. */
-const unsupported: ReadonlyMap<string, string> = new Map([
-  ['KHR_texture_basisu', 'its textures are KTX2; export it with PNG or JPEG textures'],
+const unsupported: ReadonlyMap<string, Sentence> = new Map([
+  ['KHR_texture_basisu', m`its textures are KTX2; export it with PNG or JPEG textures`],
 ]);
 
 function refuseUnreadable(name: string, bytes: Uint8Array): void {
   const json = gltfJson(bytes);
-  if (json === null) throw new FileError(`${name} is damaged: its glTF header cannot be read. Export it again.`);
+  if (json === null) throw new FileError(t`${name} is damaged: its glTF header cannot be read. Export it again.`);
   const required = Array.isArray(json['extensionsRequired']) ? json['extensionsRequired'] : [];
   for (const extensionName of required) {
     const reason = unsupported.get(String(extensionName));
-    if (reason !== undefined) throw new FileError(`${name} needs ${extensionName}: ${reason}.`);
+    if (reason !== undefined) throw new FileError(t`${name} needs ${String(extensionName)}: ${t(reason)}.`);
   }
 }
 
@@ -216,7 +218,7 @@ function externalFiles(path: string, main: Uint8Array, files: FileSet): Map<stri
     }
   }
   if (missing.length > 0) {
-    throw new FileError(`${baseName(path)} also needs ${missing.slice(0, 3).join(', ')}: drop the files together.`);
+    throw new FileError(t`${baseName(path)} also needs ${missing.slice(0, 3).join(', ')}: drop the files together.`);
   }
   return found;
 }
@@ -236,16 +238,17 @@ export const addressOf = (address: string): string | null =>
 /** Fetches a model. The page's policy lets it ask its own site, this machine and the hosts of model_hosts.ts, nobody else. */
 export async function readUrl(address: string, signal: AbortSignal): Promise<FileSet> {
   const full = addressOf(address);
-  if (full === null) throw new FileError('That is no address. It should read like https://…/model.glb.');
+  if (full === null) throw new FileError(t`That is no address. It should read like https://…/model.glb.`);
   const url = new URL(full);
   if (!mayFetchFrom(url, location.origin)) {
-    const hosts = modelHosts.length > 0 ? ` It may from ${modelHosts.join(' and ')}.` : '';
+    const hosts = modelHosts.length > 0 ? ` ${t`It may from ${listed(modelHosts)}.`}` : '';
     throw new FileError(
-      `This page may not fetch from ${url.hostname}, for your safety.${hosts} Download the file and drop it here.`,
+      t`This page may not fetch from ${url.hostname}, for your safety.${hosts} Download the file and drop it here.`,
     );
   }
   const response = await fetch(url, { signal }).catch(() => null);
-  if (!response?.ok) throw new FileError(`${url.pathname} could not be fetched (${response?.status ?? 'no answer'}).`);
+  if (!response?.ok)
+    throw new FileError(t`${url.pathname} could not be fetched (${response?.status ?? t`no answer`}).`);
   const budget = new Budget();
   const chunks: Uint8Array[] = [];
   const reader = response.body?.getReader();

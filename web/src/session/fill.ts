@@ -1,5 +1,6 @@
 // The page's end of filling gaps by surfaces built anew: a worker for one question, ended when it is answered or cancelled.
 import { isAttachment, type Program, type Shape } from '../program/types';
+import { m, type Sentence, t } from '../texts/texts';
 import type { FillReply, FillRequest } from '../worker/fill.worker';
 import { askOnce } from '../worker/once';
 import type { LengthUnit } from './document';
@@ -50,33 +51,43 @@ export async function filledGaps(
   const request: FillRequest = { rest, edited, ...joints(shape, program) };
   const reply = await askOnce<FillReply>(create, request, {
     ...options,
-    unstarted: 'What fills gaps did not start. Reload the page, with a network the first time.',
-    ended: 'The browser ended what fills gaps: the parts may have too many triangles. Export the gaps closed only.',
+    unstarted: t`What fills gaps did not start. Reload the page, with a network the first time.`,
+    ended: t`The browser ended what fills gaps: the parts may have too many triangles. Export the gaps closed only.`,
   });
-  if ('error' in reply) throw new FileError(`The gaps could not be filled: ${reply.error}`);
+  if ('error' in reply) throw new FileError(t`The gaps could not be filled: ${reply.error}`);
   return { glb: reply.glb, said: sentences(reply, shape, unit) };
 }
 
 const mostNamed = 3;
 
+const reasons: Readonly<Record<Exclude<FillReply['gaps'][number]['left'], ''>, Sentence>> = {
+  'they are too far apart': m`they are too far apart`,
+  'nothing of one faces the other': m`nothing of one faces the other`,
+  'what was built anew does not reach across': m`what was built anew does not reach across`,
+  'one is not there any more': m`one is not there any more`,
+  'one bends with a skeleton': m`one bends with a skeleton`,
+  'one has morph targets': m`one has morph targets`,
+  'one is drawn many times by one node': m`one is drawn many times by one node`,
+};
+
 function sentences({ gaps, lost }: FillReply, shape: Shape, unit: LengthUnit | undefined): string {
   const real = shape.parts.filter(({ virtual }) => !virtual);
-  const named = ({ parts, width, left }: FillReply['gaps'][number]) => {
-    const [a, b] = parts.map((part) => real[part]?.name ?? 'a part');
+  const name = (part: number) => real[part]?.name ?? t`a part`;
+  const named = ({ parts: [a, b], width, left }: FillReply['gaps'][number]) => {
     const metres = width / 1000;
-    const why = left === '' ? '' : `: ${left}`;
-    return `${a} and ${b} (${formatMeasure('distance', metres, metres, unit)}${why})`;
+    const length = formatMeasure('distance', metres, metres, unit);
+    return t`${name(a)} and ${name(b)} (${left === '' ? length : `${length}: ${t(reasons[left])}`})`;
   };
   const listed = (items: readonly string[]) =>
-    [...items.slice(0, mostNamed), ...(items.length > mostNamed ? [`${items.length - mostNamed} more`] : [])].join(
+    [...items.slice(0, mostNamed), ...(items.length > mostNamed ? [t`${items.length - mostNamed} more`] : [])].join(
       ', ',
     );
   const filled = gaps.filter(({ left }) => left === '').map(named);
   const open = gaps.filter(({ left }) => left !== '').map(named);
   return [
-    filled.length > 0 ? `Filled between ${listed(filled)}.` : '',
-    open.length > 0 ? `Not filled: ${listed(open)}.` : '',
-    lost.length > 0 ? `Not kept, because it is not known here: ${lost.join(', ')}.` : '',
+    filled.length > 0 ? t`Filled between ${listed(filled)}.` : '',
+    open.length > 0 ? t`Not filled: ${listed(open)}.` : '',
+    lost.length > 0 ? t`Not kept, because it is not known here: ${lost.join(', ')}.` : '',
   ]
     .filter(Boolean)
     .join(' ');

@@ -1,5 +1,7 @@
 // What became of the gaps that an edit has opened, in sentences.
+
 import type { Shape } from '../program/types';
+import { t } from '../texts/texts';
 import type { LengthUnit } from './document';
 import { formatMeasure } from './measure';
 import type { Exported } from './model_core';
@@ -15,18 +17,18 @@ export function withoutLeft(exported: Exported): Exported {
 /** @param unit of lengths; absent: whichever suits each */
 export function gapSentences({ gaps }: Exported, shape: Shape, unit: LengthUnit | undefined): string {
   if (gaps === undefined) return '';
-  if (gaps.gaps === 0) return 'No parts have come apart: there was no gap to close.';
+  if (gaps.gaps === 0) return t`No parts have come apart: there was no gap to close.`;
   const name = (id: string) => shape.parts.find((part) => part.id === id)?.name ?? id;
   const length = (metres: number) => formatMeasure('distance', metres, metres, unit);
   const listed = (items: readonly string[]) =>
-    [...items.slice(0, mostNamed), ...(items.length > mostNamed ? [`${items.length - mostNamed} more`] : [])].join(
+    [...items.slice(0, mostNamed), ...(items.length > mostNamed ? [t`${items.length - mostNamed} more`] : [])].join(
       ', ',
     );
-  const longer = gaps.closed.map(({ part, longer }) => `${name(part)} by ${length(longer)}`);
-  const left = gaps.left.map(({ parts: [a, b], width }) => `${name(a)} and ${name(b)} (${length(width)})`);
+  const longer = gaps.closed.map(({ part, longer }) => t`${name(part)} by ${length(longer)}`);
+  const left = gaps.left.map(({ parts: [a, b], width }) => t`${name(a)} and ${name(b)} (${length(width)})`);
   return [
-    longer.length > 0 ? `Gaps are closed: longer are ${listed(longer)}.` : '',
-    left.length > 0 ? `Apart still, as no part could be made longer: ${listed(left)}.` : '',
+    longer.length > 0 ? t`Gaps are closed: longer are ${listed(longer)}.` : '',
+    left.length > 0 ? t`Apart still, as no part could be made longer: ${listed(left)}.` : '',
   ]
     .filter(Boolean)
     .join(' ');

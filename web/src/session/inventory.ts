@@ -1,5 +1,7 @@
 // What was found in a model, for people who have just opened it.
+
 import { isAttachment, isGroup, isReflection, type Shape } from '../program/types';
+import { plural, t } from '../texts/texts';
 
 export interface Inventory {
   /** How many real parts, pairs of mirror images, and rows or rings there are. */
@@ -47,14 +49,12 @@ function looseParts(shape: Shape, real: readonly string[]): string[] {
   return real.filter((id) => !largest.has(id));
 }
 
-const counted = (count: number, one: string, several: string) => (count === 1 ? `1 ${one}` : `${count} ${several}`);
-
 /** "17 parts, 9 mirror images, 1 row, stands on the floor"; what is loose is said apart. */
 export function inventoryWords({ parts, mirrors, rows, stands }: Inventory): string {
   return [
-    counted(parts, 'part', 'parts'),
-    ...(mirrors > 0 ? [counted(mirrors, 'mirror image', 'mirror images')] : []),
-    ...(rows > 0 ? [counted(rows, 'row', 'rows')] : []),
-    ...(stands ? ['stands on the floor'] : []),
+    plural(parts, '{n} part', '{n} parts'),
+    ...(mirrors > 0 ? [plural(mirrors, '{n} mirror image', '{n} mirror images')] : []),
+    ...(rows > 0 ? [plural(rows, '{n} row', '{n} rows')] : []),
+    ...(stands ? [t`stands on the floor`] : []),
   ].join(', ');
 }

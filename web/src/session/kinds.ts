@@ -1,10 +1,12 @@
 // Kinds of a CAD program's thing, suggested by a language model: it is asked which there are, then for the numbers of the
 // most common ones, which come in as cards to be kept as variations or dropped (ReparamCAD §3.2, by words instead of a
 // diffusion model's pictures).
+
 import { batch, computed, type ReadonlySignal, signal } from '@preact/signals';
 import { AskError } from '../llm/ask_error';
 import type { Source } from '../llm/source';
 import { askVotes } from '../llm/votes';
+import { t } from '../texts/texts';
 import { type CadPicture, picturesOf } from './cad_pictures';
 import type { OpenModel } from './document';
 import type { FamilySource, NamedVariation, Variations } from './family_state';
@@ -148,11 +150,11 @@ export function createKinds({ session, models, sourceOf }: KindsParts): KindsAct
     try {
       const read = await ask(core, { cad, task: 'variation', kind: name }, source, run, show);
       const [variation] = (read.variation?.variations ?? []) as unknown as readonly NamedVariation[];
-      if (read.variation === undefined || variation === undefined) throw new Error('The answers hold no numbers');
+      if (read.variation === undefined || variation === undefined) throw new Error(t`The answers hold no numbers`);
       const alone = { cad, variations: read.variation as unknown as Variations, choices: {} };
       const family: FamilySource = { ...(await core.findFamily(alone, { signal: run.signal })), ...alone };
       const [, picture] = picturesOf(model.files, family);
-      if (picture === undefined) throw new Error('The answers hold no numbers');
+      if (picture === undefined) throw new Error(t`The answers hold no numbers`);
       setCard(run.stop, name, {
         kind: 'drawn',
         variation,

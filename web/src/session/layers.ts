@@ -1,9 +1,11 @@
 // The edits: adding, changing and arranging layers, each as one step of the history.
+
 import { batch } from '@preact/signals';
 import { checkProgram } from '../program/check';
 import { atRest } from '../program/rest';
 import { titleOf } from '../program/title';
 import { errorMessage, type Layer, type Program } from '../program/types';
+import { t } from '../texts/texts';
 import { type Document, type LayerEntry, programOf, withFreshParameters, withRequest } from './document';
 import { activeLayers, type Evaluation } from './evaluation';
 import type { History, Mark } from './history';
@@ -84,7 +86,7 @@ export function createLayers(
     const { model } = document.peek();
     if (model === null) return false;
     const checked = checkProgram(programOf(model.shape, layers), model.shape);
-    if (!checked.ok) say(`This program does not fit the model. ${errorMessage(checked.error)}`, 'error');
+    if (!checked.ok) say(t`This program does not fit the model. ${errorMessage(checked.error)}`, 'error');
     return checked.ok;
   }
 
@@ -139,7 +141,7 @@ export function createLayers(
     const entry = document.peek().layers.find((other) => other.key === key);
     if (entry === undefined || sliderValue(entry) === entry.value) return;
     const value = sliderValue(entry);
-    const label = `slide “${titleOf(entry.layer)}”`;
+    const label = t`slide “${titleOf(entry.layer)}”`;
     changeLayers(label, (layers) => replace(layers, key, { value }), inRun ? `value ${key}` : undefined);
   }
 
@@ -173,33 +175,33 @@ export function createLayers(
     amendLayer,
     exchangeLayer(key, found, request) {
       const inPlace = replacing(key, { ...found, program: withRequest(found.program, request) });
-      if (inPlace !== null) changeLayers(`read it as “${request}”`, inPlace);
+      if (inPlace !== null) changeLayers(t`read it as “${request}”`, inPlace);
       return inPlace !== null;
     },
     rewriteLayer(key, layer) {
-      changeLayers('edit as text', (layers) =>
+      changeLayers(t`edit as text`, (layers) =>
         layers.map((entry) =>
           entry.key === key ? { key, layer, enabled: entry.enabled, value: layer.parameter.value } : entry,
         ),
       );
     },
     removeLayer(key) {
-      changeLayers('remove edit', (layers) => {
+      changeLayers(t`remove edit`, (layers) => {
         const left = layers.filter((entry) => entry.key !== key);
         const known = new Set(left.map(({ layer }) => layer.parameter.name));
         return left.map((entry) => ({ ...entry, layer: atRest(entry.layer, known) }));
       });
     },
     setEnabled(key, enabled) {
-      changeLayers(enabled ? 'switch edit on' : 'switch edit off', (layers) => replace(layers, key, { enabled }));
+      changeLayers(enabled ? t`switch edit on` : t`switch edit off`, (layers) => replace(layers, key, { enabled }));
     },
     renameLayer(key, request) {
       const entry = document.peek().layers.find((other) => other.key === key);
       if (entry === undefined || entry.layer.request === request) return;
-      changeLayers('rename edit', (layers) => replace(layers, key, { layer: { ...entry.layer, request } }));
+      changeLayers(t`rename edit`, (layers) => replace(layers, key, { layer: { ...entry.layer, request } }));
     },
     moveLayer(key, by) {
-      changeLayers('reorder edits', (layers) => {
+      changeLayers(t`reorder edits`, (layers) => {
         const from = layers.findIndex((entry) => entry.key === key);
         const to = from + by;
         const moved = layers[from];

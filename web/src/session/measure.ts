@@ -1,6 +1,8 @@
 // Lengths for people: the size of the whole and of parts, and what a layer's slider changes, in the model's metres.
+
 import type { Evaluator } from '../program/compile';
 import { type Axis, isGeometric, isGroup, type Shape, type Statement, type Vec3 } from '../program/types';
+import { number } from '../texts/texts';
 import type { LengthUnit } from './document';
 
 /** Width (x), height (y) and depth (z) in metres. */
@@ -205,12 +207,7 @@ function spacing(shape: Shape, evaluator: Evaluator, relation: number): number {
 }
 
 const trimmed = (value: number, digits: number) =>
-  value
-    .toFixed(digits)
-    .replace(/(\.\d*?)0+$/, '$1')
-    .replace(/\.$/, '')
-    .replace(/^-0$/, '0')
-    .replace(/^-/, '−');
+  number(value, 0, digits, false).replace(/^-0$/, '0').replace(/^-/, '−');
 
 const lengthFactors: Readonly<Record<LengthUnit, { factor: number; digits: number }>> = {
   m: { factor: 1, digits: 3 },
@@ -244,7 +241,7 @@ export function formatLengths(
 /** A value of a measure with its unit: the chosen one, else one that suits `like`, so that before and after read alike. */
 export function formatMeasure(what: Measure['what'], value: number, like = value, chosen?: LengthUnit): string {
   if (what === 'angle') return `${trimmed((value * 180) / Math.PI, 1)}°`;
-  if (what === 'count') return String(value);
+  if (what === 'count') return number(value);
   const { unit, factor, digits } = lengthUnit(like, chosen);
   return `${trimmed(value * factor, digits)} ${unit}`;
 }

@@ -1,7 +1,9 @@
 // What the session asks of the core, and the core that answers. The core keeps one model; whichever a call is about (after
 // undo, say, or in a new worker) is its state.
+
 import type { Program, Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
+import { t } from '../texts/texts';
 import type { CallOptions, Calls, CoreState } from '../worker/client';
 import type { Inference, MethodResult, Parameters, PlainInference, Replies } from '../worker/protocol';
 import { type Corrections, type EditInput, type Labels, noCorrections, noLabels, type OpenModel } from './document';
@@ -130,7 +132,7 @@ export function modelCore(client: Calls): ModelCore {
         needs: stateOf({ files, labels: noLabels }),
       });
       const [main] = buffers;
-      if (main === undefined) throw new Error('The core gave no file.');
+      if (main === undefined) throw new Error(t`The core gave no file.`);
       const { converted, decompressed } = files;
       return {
         files: {
@@ -186,7 +188,7 @@ export function modelCore(client: Calls): ModelCore {
     async readCad(name, text, options) {
       const { result, buffers } = await client.call('open_cad', { name }, { ...options, buffers: [text] });
       const [glb] = buffers;
-      if (glb === undefined) throw new Error('The core gave no file.');
+      if (glb === undefined) throw new Error(t`The core gave no file.`);
       return { read: result, glb };
     },
     async findFamily(about, options) {
@@ -215,7 +217,7 @@ export function modelCore(client: Calls): ModelCore {
       };
       const { result, buffers } = await client.call('apply', parameters, { needs: stateOf(model) });
       const [glb] = buffers;
-      if (glb === undefined) throw new Error('The core gave no file.');
+      if (glb === undefined) throw new Error(t`The core gave no file.`);
       return {
         glb,
         warnings: result.warnings.map(({ place, text }) => [place, text].filter(Boolean).join(': ')),

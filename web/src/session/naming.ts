@@ -1,7 +1,9 @@
 // Names for the parts of a model that has none: a language model is told sizes, places and relations, its answers are
 // counted, and what comes of them is a list to correct. Accepting it labels all parts anew, in one step.
+
 import { computed, type ReadonlySignal, signal } from '@preact/signals';
 import { AskError } from '../llm/ask_error';
+import { t } from '../texts/texts';
 import type { Inference } from '../worker/protocol';
 import { type OpenModel, partKey } from './document';
 import type { ModelCore } from './model_core';
@@ -101,7 +103,7 @@ export function createNaming({ session, models, askerOf, relabel }: NamingParts)
         options,
         (answer) => {
           const { names } = answer.inference;
-          if (names === undefined || names.of === 0) throw whyUnread(answer) ?? unusable('it names nothing');
+          if (names === undefined || names.of === 0) throw whyUnread(answer) ?? unusable(t`it names nothing`);
           return { names, calls: answer.calls, tokens: answer.tokens };
         },
       );
@@ -135,7 +137,7 @@ export function createNaming({ session, models, askerOf, relabel }: NamingParts)
       if (core === null || now === null) return false;
       const labels = labelsOf(now);
       if (labels.size === 0) return false;
-      const done = await relabel(core, labels, 'name the parts');
+      const done = await relabel(core, labels, t`name the parts`);
       if (done) close();
       return done;
     },

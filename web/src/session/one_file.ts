@@ -1,4 +1,5 @@
 // One file for model and sliders: the work put into the model's GLB, and found there when it is opened again.
+
 import { checkProgram } from '../program/check';
 import { embedSliders, slidersIn, withoutSliders } from '../program/embedded';
 import { layersOn, misfitOf, type Sliders, slidersOf } from '../program/sliders';
@@ -6,6 +7,7 @@ import { errorMessage, type Shape } from '../program/types';
 import type { CameraPose } from '../scene/camera';
 import type { ModelFiles } from '../scene/load';
 import { readSaved, save, type Work } from '../share/saved';
+import { t } from '../texts/texts';
 import { type Document, emptyProgram } from './document';
 import { misfit } from './evaluation';
 import { FileError } from './files';
@@ -24,20 +26,20 @@ export function slidersOfWork(document: Document, view?: CameraPose): Sliders {
   const sliders = slidersOf(program, shape, { off: resting, hidden, session });
   const together = checkProgram({ ...program, layers: layersOn(sliders) }, shape);
   if (together.ok) return sliders;
-  throw new FileError(`The edits do not go together. ${errorMessage(together.error)}`);
+  throw new FileError(t`The edits do not go together. ${errorMessage(together.error)}`);
 }
 
 /** The model at rest with the work in it. A model of several files becomes one, by the core. Rejects with a FileError. */
 export async function oneFile(core: ModelCore, document: Document, view?: CameraPose): Promise<Uint8Array> {
   const sliders = slidersOfWork(document, view);
   const { model } = document;
-  if (model === null) throw new FileError('There is no model to put sliders into.');
+  if (model === null) throw new FileError(t`There is no model to put sliders into.`);
   const { files, shape } = model;
   const isGlb = files.external.size === 0 && new TextDecoder().decode(files.main.subarray(0, 4)) === 'glTF';
   const glb = isGlb ? files.main : (await core.apply(model, emptyProgram(shape), {})).glb;
   const written = embedSliders(glb, sliders);
   if (written.ok) return written.value;
-  throw new FileError(`The sliders cannot be put into this file. ${errorMessage(written.error)}`);
+  throw new FileError(t`The sliders cannot be put into this file. ${errorMessage(written.error)}`);
 }
 
 /** Sliders that were found in a file. */
@@ -55,7 +57,7 @@ export interface Taken {
   readonly refused: string | null;
 }
 
-const leftOut = (reason: string) => `The sliders in this file are left out. ${reason}`;
+const leftOut = (reason: string) => t`The sliders in this file are left out. ${reason}`;
 
 /** Takes the sliders out of a file, so that the model is the one that they were put into, to the byte. */
 export function takeSliders(files: ModelFiles): Taken {

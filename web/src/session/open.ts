@@ -1,8 +1,10 @@
 // Opening: a model by any route, and saved work on one. The work at hand stays until the new one is ready.
+
 import { computed, signal } from '@preact/signals';
 import { type LoadedModel, loadModel, type ModelFiles } from '../scene/load';
 import { withExtras } from '../share/extras';
 import { lostWords, type Saved, type Work } from '../share/saved';
+import { plural, t } from '../texts/texts';
 import { carved, carvedAs } from './carve';
 import { converted } from './convert';
 import { firstCuts, isCut } from './cuts';
@@ -77,7 +79,7 @@ async function abstract(
   source: ModelSource,
   given: Work | null,
 ): Promise<Opened | null> {
-  return run('Reading the model', async (options) => {
+  return run(t`Reading the model`, async (options) => {
     const picked = await withProgramRead(core, await get(options.signal), options);
     const taken = takeSliders(await converted(picked, options));
     const found = given === null ? taken.found : null;
@@ -95,7 +97,7 @@ async function abstract(
     await prepare(files);
     options.signal.throwIfAborted();
     const model = withCorrections({ files, source, shape, labels }, corrections);
-    if (isCut(files)) options.onProgress({ step: 'cutting parts', done: 0, total: 1 });
+    if (isCut(files)) options.onProgress({ step: t`cutting parts`, done: 0, total: 1 });
     const uncut = await firstCuts(model, options.signal);
     if (given !== null) return { model, work: given, family, refused: uncut };
     const own = misfits === null ? (found?.work ?? null) : null;
@@ -111,7 +113,7 @@ function show(model: OpenModel, work: Work | null, family: FamilySource | null):
   const next = withFamily(bare, family, work?.saved.family?.sliders ?? 0, newEntry);
   openedView.value = work?.saved.view ?? null;
   offered.value = null;
-  replaceDocument(next, `open ${model.shape.name}`);
+  replaceDocument(next, t`open ${model.shape.name}`);
   const remarks = [remarksOn(model), work === null ? '' : lostWords(work)].filter(Boolean).join(' ');
   if (remarks !== '') say(remarks);
   return true;
@@ -121,17 +123,17 @@ function show(model: OpenModel, work: Work | null, family: FamilySource | null):
 function remarksOn({ files, shape }: OpenModel): string {
   const remarks: string[] = [];
   if (files.converted) {
-    remarks.push(`The file was made a GLB; what you export will be one, no ${files.converted.format}.`);
+    remarks.push(t`The file was made a GLB; what you export will be one, no ${files.converted.format}.`);
     remarks.push(...files.converted.remarks);
   }
   remarks.push(...(files.cad?.remarks ?? []));
   if (files.decompressed) {
     const { compression, lost } = files.decompressed;
-    remarks.push(`The file came compressed with ${compression}; what you export will not be.`);
-    if (lost.length > 0) remarks.push(`It loses ${lost.slice(0, 3).join(', ')}.`);
+    remarks.push(t`The file came compressed with ${compression}; what you export will not be.`);
+    if (lost.length > 0) remarks.push(t`It loses ${lost.slice(0, 3).join(', ')}.`);
   }
   const left = shape.warnings.map(({ place, text }) => `${place}: ${text}`).slice(0, 3);
-  if (left.length > 0) remarks.push(`Left out: ${left.join('; ')}`);
+  if (left.length > 0) remarks.push(t`Left out: ${left.join('; ')}`);
   return remarks.join(' ');
 }
 
@@ -161,7 +163,7 @@ async function openFrom(
   if (opened === null) return false;
   const { model, family, refused } = opened;
   if (work !== null && work.saved.model.sha256 !== model.shape.sha256) {
-    say(`${model.shape.name} is not the file that this work was made on (${work.saved.model.name}).`, 'error');
+    say(t`${model.shape.name} is not the file that this work was made on (${work.saved.model.name}).`, 'error');
     return false;
   }
   show(model, opened.work, family);
@@ -223,7 +225,7 @@ export function reopen(core: ModelCore, files: ModelFiles, source: ModelSource, 
 
 /** Gives a part another label (null: the file's own): the shape is abstracted anew, and the work carried over to it. */
 export const relabel = (core: ModelCore, keys: readonly string[], label: string | null): Promise<boolean> =>
-  relabelAll(core, new Map(keys.map((key) => [key, label])), 'change label');
+  relabelAll(core, new Map(keys.map((key) => [key, label])), t`change label`);
 
 /** The same for many parts in one step, by partKey(). */
 export async function relabelAll(
@@ -237,7 +239,7 @@ export async function relabelAll(
   for (const [key, label] of given)
     if (label === null) labels.delete(key);
     else labels.set(key, label);
-  const shape = await run('Looking at the parts again', (options) =>
+  const shape = await run(t`Looking at the parts again`, (options) =>
     core.open(model.files, options, labels, model.corrections),
   );
   if (shape === null || document.peek().model !== model) return false;
@@ -245,11 +247,12 @@ export async function relabelAll(
   replaceDocument(next, step);
   const lost = next.layers.filter(({ layer }) => misfit(shape, layer) !== null);
   if (lost.length > 0) {
-    const them =
-      lost.length === 1
-        ? 'One edit no longer fits the parts and rests'
-        : `${lost.length} edits no longer fit the parts and rest`;
-    say(`${them}. Undo takes ${given.size === 1 ? 'the label' : 'the labels'} back.`);
+    const them = plural(
+      lost.length,
+      'One edit no longer fits the parts and rests.',
+      '{n} edits no longer fit the parts and rest.',
+    );
+    say(`${them} ${plural(given.size, 'Undo takes the label back.', 'Undo takes the labels back.')}`);
   }
   return true;
 }

@@ -1,8 +1,10 @@
 // The parts: which are selected, lit, hidden or renamed.
+
 import { batch, computed, type ReadonlySignal, type Signal, signal } from '@preact/signals';
 import { cutBytes } from '../program/cut';
 import { limits } from '../program/schema';
 import type { LocalTriple } from '../program/types';
+import { t } from '../texts/texts';
 import { type Document, nameOf, wholePart } from './document';
 import type { History } from './history';
 import { realParts } from './several';
@@ -74,10 +76,10 @@ export function createParts(history: History<Document>): Parts {
       for (const id of ids)
         if (hidden) next.add(id);
         else next.delete(id);
-      change(hidden ? 'hide' : 'show', { hidden: next });
+      change(hidden ? t`hide@step` : t`show@step`, { hidden: next });
     },
     showAll() {
-      if (document.peek().hidden.size > 0) change('show all', { hidden: new Set() });
+      if (document.peek().hidden.size > 0) change(t`show all`, { hidden: new Set() });
     },
     isolate(ids) {
       const { model, hidden } = document.peek();
@@ -85,8 +87,8 @@ export function createParts(history: History<Document>): Parts {
       const kept = new Set(realParts(model.shape, ids));
       const others = model.shape.parts.filter(({ id, virtual }) => !virtual && !kept.has(id)).map(({ id }) => id);
       const isAlone = others.every((id) => hidden.has(id)) && [...kept].every((id) => !hidden.has(id));
-      if (isAlone) change('show all', { hidden: new Set() });
-      else change('show these only', { hidden: new Set(others) });
+      if (isAlone) change(t`show all`, { hidden: new Set() });
+      else change(t`show these only`, { hidden: new Set(others) });
     },
     renamePart(id, typed) {
       const name = cutBytes(typed, limits.nameLength); // a longer one could be saved, but not opened again
@@ -94,7 +96,7 @@ export function createParts(history: History<Document>): Parts {
       const names = new Map(document.peek().names);
       if (name === '') names.delete(id);
       else names.set(id, name);
-      change('rename part', { names });
+      change(t`rename part`, { names });
     },
   };
 }

@@ -1,9 +1,11 @@
 // How the model stands and how large it is, where its file says it otherwise than one would think: guessed, offered, and
 // changed by a person. What is shown and said follows; the file does not, unless it is exported so.
+
 import { signal } from '@preact/signals';
 import { asInFile, type Direction, directions, type Placing, vectorOf } from '../carve/placing';
 import { type Corners, isReflection, type Shape } from '../program/types';
 import type { ModelFiles } from '../scene/load';
+import { m } from '../texts/texts';
 import { carved } from './carve';
 import { carveModel } from './carving';
 import type { ModelCore } from './model_core';
@@ -120,11 +122,11 @@ export const seemsUp = once((shape): Direction | null => {
 const usual = { least: 0.02, most: 15 };
 /** Units that files are drawn in, in metres; a file that says nothing is read in metres. */
 export const fileUnits = [
-  { metres: 1, label: 'metres' },
-  { metres: 0.01, label: 'centimetres' },
-  { metres: 0.001, label: 'millimetres' },
-  { metres: 0.0254, label: 'inches' },
-  { metres: 0.3048, label: 'feet' },
+  { metres: 1, label: m`metres` },
+  { metres: 0.01, label: m`centimetres` },
+  { metres: 0.001, label: m`millimetres` },
+  { metres: 0.0254, label: m`inches` },
+  { metres: 0.3048, label: m`feet` },
 ] as const;
 
 /** Along x, y and z, in metres, at rest. */

@@ -1,8 +1,10 @@
 // What a language model proposes, as cards: each proposal is read and propagated as soon as it is there, and what came of it
 // waits to be kept or dropped. ParSEL §8.1 (proxydural models) and §8.2 (variations of one request).
+
 import { batch, computed, type ReadonlySignal, signal } from '@preact/signals';
 import { AskError } from '../llm/ask_error';
 import type { Layer } from '../program/types';
+import { t } from '../texts/texts';
 import { type EditInput, type LayerEntry, type OpenModel, withFreshParameters, withRequest } from './document';
 import { madeBy } from './layers';
 import type { ModelCore, Propagation } from './model_core';
@@ -283,7 +285,7 @@ export function createProposals({ session, models, askerOf }: ProposalsParts): P
       }
       return batch(() => {
         unshow();
-        const label = clean.length === 1 ? first.one.request : `keep ${clean.length} suggested sliders`;
+        const label = clean.length === 1 ? first.one.request : t`keep ${clean.length} suggested sliders`;
         const keys = session.addProgram({ ...first.found.program, layers }, label) ?? [];
         const keptAs = new Map(clean.map(({ one }, i) => [one.key, keys[i] ?? null]));
         changeAll((all) =>

@@ -1,8 +1,10 @@
 // Asking a language model for requests: the prompt of a task that proposes, with a picture of the model where the model that
 // is asked can see, and its replies. What each proposal means is read like any request.
+
 import { AskError } from '../llm/ask_error';
 import { type Answer, type AskOptions, ask } from '../llm/session';
 import type { Source } from '../llm/source';
+import { t } from '../texts/texts';
 import type { Inference, Prompt } from '../worker/protocol';
 import type { EditInput, OpenModel } from './document';
 import type { ModelCore } from './model_core';
@@ -77,7 +79,7 @@ export async function askAlone<T>(
     asker.isBlind();
   }
   const found = seen ?? (await once(false));
-  if (found === null) throw unusable('nobody can be asked');
+  if (found === null) throw unusable(t`nobody can be asked`);
   return found;
 }
 
@@ -105,8 +107,8 @@ export function whyUnread({ inference, failures }: Answer): AskError | undefined
   return failures[0] ?? (refused && unusable(refused.error.cause));
 }
 
-export const unusable = (why = 'it proposes nothing') =>
-  new AskError('unreadable', '', `The answer could not be used: ${why}`, 'Ask again, or ask another language model');
+export const unusable = (why = t`it proposes nothing`) =>
+  new AskError('unreadable', '', t`The answer could not be used: ${why}`, t`Ask again, or ask another language model`);
 
 /** What a proposed request means. Which symmetries may go is not asked: it would be many times as many questions. */
 export async function readProposal(
@@ -124,6 +126,6 @@ export async function readProposal(
     { signal, onProgress: () => {} },
   );
   const edit = inference.edit === null ? null : { seed: [], disabled: [], hints: {}, ...inference.edit };
-  const why = inference.seed.reason ?? inference.refused[0]?.error.cause ?? 'no answer could be read';
+  const why = inference.seed.reason ?? inference.refused[0]?.error.cause ?? t`no answer could be read`;
   return { edit, why, calls, tokens };
 }

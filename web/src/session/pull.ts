@@ -1,9 +1,11 @@
 // Pulling at the shape in the view. What is grabbed decides the seed edit; it is propagated once, when the pull begins,
 // and from then on the hand moves the slider of the layer that came of it, so that the whole shape follows at every
 // frame. Letting go keeps the layer, Escape leaves everything as it was.
+
 import { signal } from '@preact/signals';
 import { statementText } from '../program/text';
 import type { Axis, LocalTriple, ReflectionRelation, Shape, ShapePart, Statement, Vec3 } from '../program/types';
+import { t } from '../texts/texts';
 import { withRequest } from './document';
 import { activeLayers } from './evaluation';
 import { axes, type Measure, measureOf, pointIn } from './measure';
@@ -143,7 +145,7 @@ export async function beginPull(core: ModelCore, grab: Grab, request: string): P
     const found = await onto(model, alone);
     if (pull.peek() !== begun || document.peek().model !== model) return false;
     const [entry] = entriesOf({ ...found, program: withRequest(found.program, request) }) ?? [];
-    if (entry === undefined) throw new Error('Nothing came of it');
+    if (entry === undefined) throw new Error(t`Nothing came of it`);
     draft.value = entry;
     pull.value = { ...begun, layer: follow(entry.key, index, grab.feature, direction, seed) };
     return true;

@@ -1,5 +1,7 @@
 // A layer made anew from another edit, in its place: its card was reopened and changed.
+
 import { isGroup, type Shape } from '../program/types';
+import { t } from '../texts/texts';
 import type { EditInput, LayerEntry } from './document';
 import { editOf, seedsOf } from './layer_seed';
 import type { ModelCore, Propagation } from './model_core';
@@ -29,7 +31,7 @@ function replaceLayer({ key, layer: before }: LayerEntry, found: Propagation): b
     value: Math.min(max, Math.max(min, now.value)),
     ...(fresh.trace === undefined ? {} : { trace: fresh.trace }),
   };
-  change('change edit', (state) => ({
+  change(t`change edit`, (state) => ({
     ...state,
     layers: state.layers.map((other) => (other.key === key ? replaced : other)),
   }));

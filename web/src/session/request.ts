@@ -1,10 +1,12 @@
 // A request in words: asked of a language model, read, and propagated into a layer. What was understood stays at hand, so
 // that each line of it can be corrected; the layer is then made anew in the step that made it, and later steps stay.
+
 import { batch, computed, effect, type ReadonlySignal, type Signal, signal, untracked } from '@preact/signals';
 import { AskError } from '../llm/ask_error';
 import { type Answer, ask, type Estimate, estimate, type TaskProgress } from '../llm/session';
 import type { Source } from '../llm/source';
 import type { Layer } from '../program/types';
+import { listed, plural, t } from '../texts/texts';
 import type { Inference, PlainInference, Target } from '../worker/protocol';
 import { type EditInput, type OpenModel, partNames, type Side } from './document';
 import type { Mark } from './history';
@@ -143,7 +145,7 @@ export function createRequests({ session, models, questionOf, seen, votes, play,
     if (requestText.peek().trim() === '' || request.peek().kind === 'asking') return;
     if (core === null || model === null)
       return fail(
-        new Error(model === null ? 'Open a model first' : 'The core is still starting; try again in a moment'),
+        new Error(model === null ? t`Open a model first` : t`The core is still starting; try again in a moment`),
       );
 
     const controller = new AbortController();
@@ -230,7 +232,7 @@ export function createRequests({ session, models, questionOf, seen, votes, play,
   async function understand(state: Understood, signal: AbortSignal): Promise<void> {
     signal.throwIfAborted();
     if (document.peek().model !== state.model)
-      throw new Error('Another model was opened meanwhile; send the request again');
+      throw new Error(t`Another model was opened meanwhile; send the request again`);
     request.value = state;
     if (state.edit !== null && state.answer.inference.seed.outcome === 'decided') await applyRequest();
   }
@@ -358,16 +360,16 @@ function readingOf(
 function unsureWords({ reason, unused }: PlainInference['plain']): string {
   const words = unused.slice(0, 5).map((word) => `“${word}”`);
   const missed =
-    words.length === 0 ? null : `${words.join(' and ')} ${words.length === 1 ? 'is' : 'are'} not understood`;
-  return [reason, missed].filter((text) => text !== null).join('; ') || 'it is not clear';
+    words.length === 0 ? null : plural(words.length, '{0} is not understood', '{0} are not understood', listed(words));
+  return [reason, missed].filter((text) => text !== null).join('; ') || t`it is not clear`;
 }
 
 const notUnderstood = (plain: PlainInference['plain']) =>
   new AskError(
     'no_recording',
     '',
-    `Without a language model this was not understood: ${unsureWords(plain)}`,
-    'Say it in other words, or enter a key in the settings to ask a language model',
+    t`Without a language model this was not understood: ${unsureWords(plain)}`,
+    t`Say it in other words, or enter a key in the settings to ask a language model`,
   );
 
 /** Why there is no clear reading, as a sentence; null when there is. */
@@ -375,18 +377,19 @@ export function whyUndecided(
   { seed, refused }: Inference,
   plain: PlainInference['plain'] | null = null,
 ): string | null {
-  if (plain !== null) return plain.sure ? null : `Not sure: ${unsureWords(plain)}. Did you mean one of these?`;
+  if (plain !== null) return plain.sure ? null : t`Not sure: ${unsureWords(plain)}. Did you mean one of these?`;
   switch (seed.outcome) {
     case 'decided':
       return null;
     case 'split':
-      return `The ${seed.of} answers understand it in different ways. Which one did you mean?`;
+      return t`The ${seed.of} answers understand it in different ways. Which one did you mean?`;
     case 'unclear':
-      return seed.reason === null ? 'The request is unclear.' : `The request is unclear: “${seed.reason}”`;
+      return seed.reason === null ? t`The request is unclear.` : t`The request is unclear: “${seed.reason}”`;
     case 'none': {
       const first = refused.find(({ task }) => task === 'seed_edit')?.error;
-      const why = first === undefined ? '' : ` The first: ${first.cause}.`;
-      return `No answer could be used.${why} Ask again, or say it in other words.`;
+      return first === undefined
+        ? t`No answer could be used. Ask again, or say it in other words.`
+        : t`No answer could be used. The first: ${first.cause}. Ask again, or say it in other words.`;
     }
   }
 }

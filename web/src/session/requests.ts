@@ -1,10 +1,12 @@
 // The page's own requests: who is asked, and what without a key is asked of recordings. What has none is read without a
 // language model (request.ts).
+
 import { AskError } from '../llm/ask_error';
 import { browserCache } from '../llm/cache';
 import { findRecorded, loadRecordings } from '../llm/recordings';
 import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
+import { t } from '../texts/texts';
 import { models } from './core';
 import { isAsFound, type OpenModel, partNames } from './document';
 import { facing, speaksAsSeen } from './facing';
@@ -33,8 +35,8 @@ async function questionOf(
     throw new AskError(
       'no_recording',
       '',
-      'The recorded answers are about the parts as the file has them, and some have other labels or joints now',
-      'Reset those, or enter a key in the settings to ask anything',
+      t`The recorded answers are about the parts as the file has them, and some have other labels or joints now`,
+      t`Reset those, or enter a key in the settings to ask anything`,
     );
   const gallery = galleryOf(model);
   const recordings = gallery === null ? null : await loadRecordings(gallery);
@@ -43,15 +45,15 @@ async function questionOf(
     throw new AskError(
       'no_recording',
       '',
-      'Without a key only recorded requests work, and there are none for this model',
-      'Enter a key in the settings to ask anything, or edit by hand',
+      t`Without a key only recorded requests work, and there are none for this model`,
+      t`Enter a key in the settings to ask anything, or edit by hand`,
     );
   if (known === undefined)
     throw new AskError(
       'no_recording',
       '',
-      'This request has no recorded answer',
-      'Try one of the recorded ones below, or enter a key in the settings to ask anything',
+      t`This request has no recorded answer`,
+      t`Try one of the recorded ones below, or enter a key in the settings to ask anything`,
     );
   return { ...known, title: own === typed ? known.request : typed, source: recordedSource(recordings) };
 }

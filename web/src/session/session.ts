@@ -1,6 +1,8 @@
 // The state of the page and everything that can be done to it, by concern. The interface reads signals and calls these
 // functions; tests make sessions of their own.
+
 import { batch, computed, type ReadonlySignal } from '@preact/signals';
+import { t } from '../texts/texts';
 import { type Document, type EditInput, emptyDocument, withRequest } from './document';
 import { createEvaluation, type Evaluation } from './evaluation';
 import { createFamily, type FamilyActions } from './family';
@@ -49,7 +51,7 @@ export function createSession(): Session {
     const { model } = document.peek();
     if (model === null) return null;
     stack.useCore(core);
-    const found = await tasks.run('Working out how the other parts follow', async (options) =>
+    const found = await tasks.run(t`Working out how the other parts follow`, async (options) =>
       stack.onto(model, await core.propagate(model, edit, options), replacing),
     );
     if (found === null || document.peek().model !== model) return null;
@@ -101,7 +103,7 @@ export function createSession(): Session {
     async propagate(core, edit, request) {
       const found = await find(core, edit, request);
       if (found === null) return null;
-      return layers.addProgram(found.program, request || 'edit', madeBy(found))?.[0] ?? null;
+      return layers.addProgram(found.program, request || t`edit`, madeBy(found))?.[0] ?? null;
     },
   };
 }

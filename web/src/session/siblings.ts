@@ -1,6 +1,8 @@
 // Siblings of the model: every slider somewhere in its range, drawn by the core from settings that are sound together
 // (core/prove/together.h). ParSEL §8.1.
+
 import { signal } from '@preact/signals';
+import { t } from '../texts/texts';
 import { models } from './core';
 import { programOf } from './document';
 import { activeLayers } from './evaluation';
@@ -22,7 +24,7 @@ export async function drawSiblings(count: number): Promise<readonly Sibling[] | 
   const layers = activeLayers(document.peek());
   const own = seed.peek();
   seed.value = own + 1;
-  const drawn = await run('Looking for settings that go together', (options) =>
+  const drawn = await run(t`Looking for settings that go together`, (options) =>
     core.siblings(model, programOf(model.shape, layers), count, own, options),
   );
   if (drawn === null || document.peek().model !== model) return null;
@@ -33,11 +35,11 @@ export async function drawSiblings(count: number): Promise<readonly Sibling[] | 
 
 /** Puts all sliders at once, as one step that undo takes back. */
 export function takeSibling({ values }: Sibling): void {
-  setValues(values, 'take a sibling');
+  setValues(values, t`take a sibling`);
 }
 
 /** Puts all sliders somewhere in their ranges. */
 export async function surprise(): Promise<void> {
   const [drawn] = (await drawSiblings(1)) ?? [];
-  if (drawn !== undefined) setValues(drawn.values, 'surprise me');
+  if (drawn !== undefined) setValues(drawn.values, t`surprise me`);
 }

@@ -1,5 +1,7 @@
 // A length that is typed for the whole or for a part: the slider that changes it is put there, or made first.
+
 import type { Axis, Shape, Statement } from '../program/types';
+import { m, t } from '../texts/texts';
 import type { Target } from '../worker/protocol';
 import type { EditInput, LayerEntry } from './document';
 import { activeLayers } from './evaluation';
@@ -11,6 +13,14 @@ import { compiled, document, propagate, say } from './session';
 import { measureAimed } from './target';
 
 const names = ['width', 'height', 'depth'] as const;
+const titles = [m`Width`, m`Height`, m`Depth`] as const;
+const titlesOf = [m`{0} width`, m`{0} height`, m`{0} depth`] as const;
+const whichSets = [
+  m`Which part sets the width? Select it and type its width, or say what to change.`,
+  m`Which part sets the height? Select it and type its height, or say what to change.`,
+  m`Which part sets the depth? Select it and type its depth, or say what to change.`,
+] as const;
+/** In requests, which are read in English. */
 const adjectives = ['wide', 'high', 'deep'] as const;
 /** Of a slider: what is asked for lies within, so that there is way to go beyond. */
 const farEnd = 0.3;
@@ -71,7 +81,7 @@ async function editFor(
   const { plain } = await core.readPlainly(model, `make it ${metres.toFixed(4)} m ${adjectives[axis]}`, []);
   const [first] = plain.readings;
   if (!plain.sure || first === undefined) {
-    say(`Which part sets the ${names[axis]}? Select it and type its ${names[axis]}, or say what to change.`);
+    say(t(whichSets[axis]));
     return null;
   }
   return { seed: [], disabled: [], hints: {}, ...first.edit };
@@ -92,11 +102,11 @@ export async function setLength(core: ModelCore, part: string | null, axis: Axis
     if (entry === undefined) return;
     const measure = measureAimed(model.shape, target, seedsOf(entry.layer)[0]);
     if (measure !== null && !(await putAt(core, entry, measure, metres)))
-      say('The slider goes no further: beyond, a part would turn inside out or something come apart.');
+      say(t`The slider goes no further: beyond, a part would turn inside out or something come apart.`);
   };
   if (known !== undefined) return put(known);
-  const name = part === null ? '' : `${model.shape.parts.find(({ id }) => id === part)?.name ?? part} `;
-  const title = name + names[axis];
+  const name = model.shape.parts.find(({ id }) => id === part)?.name ?? part;
+  const title = name === null ? t(titles[axis]) : t(titlesOf[axis], name);
   const key = await propagate(core, edit, title.charAt(0).toUpperCase() + title.slice(1));
   if (key === null) return;
   await put(document.peek().layers.find((entry) => entry.key === key));

@@ -1,10 +1,12 @@
 // The page's end of uniting parts for printers: a worker for one question, ended when it is answered or cancelled.
+
 import type { Shape } from '../program/types';
 import type { CadSource, ModelFiles } from '../scene/load';
 import type { CadProgram } from '../solid/cad';
 import type { State } from '../solid/cut';
 import type { Solid } from '../solid/types';
 import type { United } from '../solid/unite';
+import { t } from '../texts/texts';
 import { askOnce } from '../worker/once';
 import type { CadFile, Cut, PrintFormat, SolidRequest, Written } from '../worker/solid.worker';
 import type { CadPicture } from './cad_pictures';
@@ -20,10 +22,10 @@ const create = (name: string) =>
 async function ask<Reply extends object>(request: SolidRequest, options: RunOptions): Promise<Reply> {
   const reply = await askOnce<Reply>(create, request, {
     ...options,
-    unstarted: 'What unites the parts did not start. Reload the page, with a network the first time.',
-    ended: 'The browser ended what unites the parts: they may have too many triangles. Export fewer of them.',
+    unstarted: t`What unites the parts did not start. Reload the page, with a network the first time.`,
+    ended: t`The browser ended what unites the parts: they may have too many triangles. Export fewer of them.`,
   });
-  if ('error' in reply) throw new FileError(`The parts could not be united: ${reply.error}`);
+  if ('error' in reply) throw new FileError(t`The parts could not be united: ${reply.error}`);
   return reply as Reply;
 }
 

@@ -1,6 +1,8 @@
 // A model in one piece: its parts told apart on request, as a step that undo takes back.
+
 import { batch, computed, signal } from '@preact/signals';
 import type { ModelFiles, SplitBy } from '../scene/load';
+import { m, t } from '../texts/texts';
 import { emptyDocument, noLabels, type OpenModel } from './document';
 import type { ModelCore } from './model_core';
 import { prepare } from './open';
@@ -35,7 +37,7 @@ export function declineSplit(): void {
   if (files) settled.value = new Set([...settled.peek(), files]);
 }
 
-const stepLabel = 'split into parts';
+const stepLabel = m`split into parts`;
 
 /**
  * Tells the parts of the model apart, or, when that was done already, does it anew in another way. One step: doing it
@@ -45,7 +47,7 @@ export async function splitModel(core: ModelCore, by: SplitBy, fine: number): Pr
   const { model } = document.peek();
   if (model === null) return false;
   const from = model.files.split?.from ?? model.files;
-  const made = await run('Looking for the parts', async (options) => {
+  const made = await run(t`Looking for the parts`, async (options) => {
     const split = await core.split(from, { by, fine }, options);
     if (split.parts === split.before) return { split, shape: null };
     const shape = await core.open(split.files, options);
@@ -59,16 +61,18 @@ export async function splitModel(core: ModelCore, by: SplitBy, fine: number): Pr
     settled.value = new Set([...settled.peek(), from]);
     const remarks = split.remarks.slice(0, 3).join('; ');
     say(
-      `Nothing in this model comes apart this way${remarks === '' ? '. Select a part to cut it by hand' : `: ${remarks}`}.`,
+      remarks === ''
+        ? t`Nothing in this model comes apart this way. Select a part to cut it by hand.`
+        : t`Nothing in this model comes apart this way: ${remarks}.`,
     );
     return false;
   }
   const next = { ...emptyDocument, model: { files: split.files, source: model.source, shape, labels: noLabels } };
   batch(() => {
     // A second try is no step of its own, as long as nothing was done since.
-    if (model.files.split && undoLabel.peek() === stepLabel) undo();
-    replaceDocument(next, stepLabel);
+    if (model.files.split && undoLabel.peek() === t(stepLabel)) undo();
+    replaceDocument(next, t(stepLabel));
   });
-  if (split.remarks.length > 0) say(`Split, but for this: ${split.remarks.slice(0, 3).join('; ')}.`);
+  if (split.remarks.length > 0) say(t`Split, but for this: ${split.remarks.slice(0, 3).join('; ')}.`);
   return true;
 }

@@ -1,9 +1,11 @@
 // Whom the page asks for proposals: a language model with the key of the settings, or the recordings of a gallery model.
+
 import { AskError } from '../llm/ask_error';
 import { browserCache } from '../llm/cache';
 import { loadRecordings } from '../llm/recordings';
 import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
+import { t } from '../texts/texts';
 import { models } from './core';
 import { isAsFound, type OpenModel } from './document';
 import { createProposals } from './proposals';
@@ -43,8 +45,8 @@ async function recordedAsker(model: OpenModel): Promise<Asker> {
     throw new AskError(
       'no_recording',
       '',
-      'Without a key there are recorded suggestions for gallery models only',
-      'Enter a key in the settings to ask about your own model',
+      t`Without a key there are recorded suggestions for gallery models only`,
+      t`Enter a key in the settings to ask about your own model`,
     );
   const recorded = recordedSource(recordings);
   return {
@@ -56,9 +58,9 @@ async function recordedAsker(model: OpenModel): Promise<Asker> {
         'no_recording',
         '',
         prompt.task === 'request_variations'
-          ? 'Without a key there are recorded readings of a few requests only, and this one is none of them'
-          : 'There are no recorded suggestions for this model',
-        'Enter a key in the settings to ask a language model',
+          ? t`Without a key there are recorded readings of a few requests only, and this one is none of them`
+          : t`There are no recorded suggestions for this model`,
+        t`Enter a key in the settings to ask a language model`,
       );
     },
     isBlind: () => {},

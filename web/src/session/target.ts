@@ -1,5 +1,7 @@
 // A slider put where a request said: "10 cm longer", "exactly 80 cm", "twice as high".
+
 import type { Shape, Statement } from '../program/types';
+import { t } from '../texts/texts';
 import type { Target } from '../worker/protocol';
 import { formatMeasure, larger, type Measure, measureOf, sizeOf } from './measure';
 import { readLayer, solveLayer } from './reading';
@@ -42,5 +44,5 @@ export function aimAt(key: number, target: Target): void {
   const [reached = wanted] = readLayer(entry, measure, [found]);
   const show = (value: number) => formatMeasure(measure.what, value, larger(rest, wanted), document.peek().unit);
   if (show(reached) !== show(wanted))
-    say(`The slider goes no further than ${show(reached)}; ${show(wanted)} was asked for.`);
+    say(t`The slider goes no further than ${show(reached)}; ${show(wanted)} was asked for.`);
 }

@@ -1,6 +1,9 @@
 // What the page is doing that takes time, one thing at a time, and what it has to say.
+
 import { type ReadonlySignal, type Signal, signal } from '@preact/signals';
+import { t } from '../texts/texts';
 import type { Progress } from '../worker/protocol';
+import { stepWords } from './core_steps';
 import { FileError } from './files';
 
 /** A sentence that stays until the next thing is done. */
@@ -47,7 +50,8 @@ export function createTasks(): Tasks {
         signal: controller.signal,
         onProgress({ step, done, total }) {
           if (!isCurrent()) return;
-          task.value = { ...own, text: total > 1 ? `${text} · ${step}, ${done} of ${total}` : `${text} · ${step}` };
+          const now = `${text} · ${stepWords(step)}`;
+          task.value = { ...own, text: total > 1 ? t`${now}, ${done} of ${total}` : now };
         },
       });
     } catch (error) {
@@ -65,7 +69,7 @@ export function createTasks(): Tasks {
 export function sentence(error: unknown): string {
   const text = error instanceof Error ? error.message : String(error);
   if (error instanceof FileError) return text;
-  const whole = text || 'something went wrong';
+  const whole = text || t`something went wrong`;
   const capital = whole.charAt(0).toUpperCase() + whole.slice(1);
   return /[.!?]$/.test(capital) ? capital : `${capital}.`;
 }

@@ -1,7 +1,9 @@
 // What saved work may hold beyond layers and parts: the unit of lengths, presets, groups of cards.
+
 import * as v from 'valibot';
 import { limits } from '../program/schema';
 import { type Document, type LayerEntry, lengthUnits, nameLimit, type Side, sides } from '../session/document';
+import { t } from '../texts/texts';
 
 const index = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(limits.layers - 1));
 const name = v.pipe(v.string(), v.minLength(1), v.maxLength(nameLimit));
@@ -84,7 +86,7 @@ export function withExtras(
  */
 export function salvageExtras(json: Readonly<Record<string, unknown>>, kept: readonly number[]): [Extras, string[]] {
   const read = v.safeParse(extrasSchema, json);
-  if (!read.success) return [{}, ['presets, groups, the unit and whose sides are meant']];
+  if (!read.success) return [{}, [t`presets, groups, the unit and whose sides are meant`]];
   const { presets, groups, seen, ...rest } = read.output;
   const moved = <T>(list: readonly [number, T][]): [number, T][] =>
     list.flatMap(([i, value]) => (kept.includes(i) ? [[kept.indexOf(i), value] as [number, T]] : []));

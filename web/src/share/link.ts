@@ -1,4 +1,5 @@
 // The whole work in the fragment of an address: "#v1." and deflated JSON as base64url. Nothing of it reaches a server.
+import { t } from '../texts/texts';
 import { type ReadResult, readSavedText, type Saved } from './saved';
 
 /** Longer links break in mail and chat programs. */
@@ -23,13 +24,13 @@ export async function readFragment(fragment: string): Promise<ReadResult | null>
   const version = /^#?v(\d{1,9})\./.exec(fragment);
   if (version === null) return null;
   if (version[1] !== '1') {
-    return refused('This link was made by a newer ParSEL. Reload the page to update it, then try again.');
+    return refused(t`This link was made by a newer ParSEL. Reload the page to update it, then try again.`);
   }
   const coded = fragment.slice(version[0].length);
   // Before any of it is decoded: browsers accept links of hundreds of megabytes.
-  if (coded.length > maxLength) return refused('This link is too long. Ask for the work as a file instead.');
+  if (coded.length > maxLength) return refused(t`This link is too long. Ask for the work as a file instead.`);
   const inflated = await inflate(coded);
-  if (inflated === null) return refused('This link is damaged: part of it is missing. Ask for it again.');
+  if (inflated === null) return refused(t`This link is damaged: part of it is missing. Ask for it again.`);
   return readSavedText(inflated);
 }
 

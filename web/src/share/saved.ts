@@ -1,4 +1,5 @@
 // `parsel/session` v1: the work on a model without the model, for files and links. Untrusted when it is read.
+
 import * as v from 'valibot';
 import { directions } from '../carve/placing';
 import type { Plane } from '../carve/steps';
@@ -8,6 +9,7 @@ import { layerSchema, limits, programSchema } from '../program/schema';
 import type { CameraPose } from '../scene/camera';
 import { correctionKinds, type Document } from '../session/document';
 import { savedFamily } from '../session/family_state';
+import { t } from '../texts/texts';
 import { extrasEntries, extrasOf, salvageExtras } from './extras';
 
 const id = v.pipe(v.string(), v.minLength(1), v.maxBytes(limits.nameLength));
@@ -151,17 +153,17 @@ export function save(document: Document, view?: CameraPose): Saved {
 export function readSaved(json: unknown): ReadResult {
   const header = v.safeParse(v.looseObject({ format: v.string(), version: v.number() }), json);
   if (!header.success || header.output.format !== 'parsel/session') {
-    return { ok: false, text: 'This is no saved ParSEL session.' };
+    return { ok: false, text: t`This is no saved ParSEL session.` };
   }
   if (header.output.version !== 1) {
-    return { ok: false, text: 'This was saved by a newer ParSEL. Reload the page to update it, then try again.' };
+    return { ok: false, text: t`This was saved by a newer ParSEL. Reload the page to update it, then try again.` };
   }
   const parsed = v.safeParse(savedSchema, json, { abortEarly: true });
   if (parsed.success) return { ok: true, saved: parsed.output, lost: [] };
   const work = salvage(header.output);
   if (work !== null) return { ok: true, ...work };
-  const place = v.getDotPath(parsed.issues[0]) ?? 'the file';
-  return { ok: false, text: `This session is damaged at ${shortened(place, 80)}. Ask for it again.` };
+  const place = v.getDotPath(parsed.issues[0]) ?? t`the file`;
+  return { ok: false, text: t`This session is damaged at ${shortened(place, 80)}. Ask for it again.` };
 }
 
 type Json = Readonly<Record<string, unknown>>;
@@ -188,23 +190,23 @@ function salvage(json: Json): Work | null {
 
   const model = v.safeParse(modelSchema, json['model']);
   if (!model.success) return null;
-  const all = listOf(objectOf(json['program'])['layers'], 'the edits');
+  const all = listOf(objectOf(json['program'])['layers'], t`the edits`);
   const layers = whole(all, layerSchema, limits.layers);
   const kept = new Set(layers.map(({ index }) => index));
   for (const [i, layer] of all.entries()) if (!kept.has(i)) lost.push(editName(i, layer));
-  const off = new Set(some(listOf(json['off'], 'which edits are off'), v.number(), 'which edits are off'));
-  const labels = json['labels'] === undefined ? [] : some(listOf(json['labels'], 'labels'), label, 'labels');
-  const corrected = 'joints and mirror images put right by hand';
+  const off = new Set(some(listOf(json['off'], t`which edits are off`), v.number(), t`which edits are off`));
+  const labels = json['labels'] === undefined ? [] : some(listOf(json['labels'], t`labels`), label, t`labels`);
+  const corrected = t`joints and mirror images put right by hand`;
   const given = json['corrections'];
   const corrections = given === undefined ? [] : some(listOf(given, corrected), correction, corrected);
   const view = v.safeParse(viewSchema, json['view']);
   const split = v.safeParse(splitSchema, json['split']);
-  if (!split.success && json['split'] !== undefined) lost.push('how the parts were told apart');
+  if (!split.success && json['split'] !== undefined) lost.push(t`how the parts were told apart`);
   const carved = v.safeParse(carvedSchema, json['carved']);
-  if (!carved.success && json['carved'] !== undefined) lost.push('what was done to the parts by hand');
-  if (!view.success && json['view'] !== undefined) lost.push('the view');
+  if (!carved.success && json['carved'] !== undefined) lost.push(t`what was done to the parts by hand`);
+  if (!view.success && json['view'] !== undefined) lost.push(t`the view`);
   const family = v.safeParse(familySchema, json['family']);
-  if (!family.success && json['family'] !== undefined) lost.push('the family');
+  if (!family.success && json['family'] !== undefined) lost.push(t`the family`);
   const [extras, damaged] = salvageExtras(
     json,
     layers.map(({ index }) => index),
@@ -222,8 +224,8 @@ function salvage(json: Json): Work | null {
       layers: layers.map(({ item }) => item),
     },
     off: layers.flatMap(({ index }, i) => (off.has(index) ? [i] : [])),
-    hidden: some(listOf(json['hidden'], 'what is hidden'), id, 'what is hidden'),
-    names: some(listOf(json['names'], 'names'), renamed, 'names'),
+    hidden: some(listOf(json['hidden'], t`what is hidden`), id, t`what is hidden`),
+    names: some(listOf(json['names'], t`names`), renamed, t`names`),
     ...(labels.length > 0 ? { labels } : {}),
     ...(corrections.length > 0 ? { corrections } : {}),
     ...(family.success ? { family: family.output } : {}),
@@ -239,26 +241,28 @@ function salvage(json: Json): Work | null {
 function editName(index: number, layer: unknown): string {
   const request = objectOf(layer)['request'];
   const name = typeof request === 'string' ? shortened(request, 60).trim() : '';
-  return `edit ${index + 1}${name === '' ? '' : ` (“${name}”)`}`;
+  return name === '' ? t`edit ${index + 1}` : t`edit ${index + 1} (“${name}”)`;
 }
 
 /** A sentence on what is missing; empty when nothing is. */
 export function lostWords({ lost }: Work): string {
   const most = 3;
   if (lost.length === 0) return '';
-  const others = lost.length > most ? ` and ${lost.length - most} more` : '';
-  return `Part of this work was damaged and is left out: ${lost.slice(0, most).join(', ')}${others}.`;
+  const named = lost.slice(0, most).join(', ');
+  const rest = lost.length - most;
+  const what = rest > 0 ? t`${named} and ${rest} more` : named;
+  return t`Part of this work was damaged and is left out: ${what}.`;
 }
 
 /** Reads an untrusted file, or what a link holds. */
 export function readSavedText(content: string | Uint8Array): ReadResult {
   // A character takes up to four bytes, so that what is longer than this is too long in any case.
-  if (typeof content !== 'string' && content.length > 4 * jsonLimits.length) return damaged('it is too large');
+  if (typeof content !== 'string' && content.length > 4 * jsonLimits.length) return damaged(t`it is too large`);
   const json = parseJson(typeof content === 'string' ? content : new TextDecoder().decode(content));
   return json.ok ? readSaved(json.value) : damaged(json.error.cause);
 }
 
 const damaged = (cause: string): ReadResult => ({
   ok: false,
-  text: `This session is damaged: ${cause}. Ask for it again.`,
+  text: t`This session is damaged: ${cause}. Ask for it again.`,
 });

@@ -1,4 +1,5 @@
 // How far the parts stand apart in the exploded view, and the way back.
+import { t } from '../texts/texts';
 import { Icon } from './Icon';
 import { apart, toggleApart } from './view';
 
@@ -13,7 +14,7 @@ export function ApartSlider() {
         max={1}
         step={0.01}
         value={apart.value}
-        aria-label="How far the parts are drawn apart"
+        aria-label={t`How far the parts are drawn apart`}
         aria-valuetext={`${Math.round(apart.value * 100)} %`}
         onInput={(event) => {
           // At 0 the slider would vanish under the hand.
@@ -23,8 +24,8 @@ export function ApartSlider() {
       <button
         type="button"
         class="button icon-only"
-        aria-label="Put the parts together"
-        title="Together (E)"
+        aria-label={t`Put the parts together`}
+        title={t`Together (E)`}
         onClick={toggleApart}
       >
         <Icon name="close" />

@@ -1,4 +1,5 @@
 // The page: the stage fills the window, panels float on it.
+
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
@@ -8,29 +9,33 @@ import { readDropped } from '../session/files';
 import { lookOnOpening } from '../session/page_offers';
 import { document } from '../session/session';
 import { suggestions } from '../session/suggestions';
+import { t } from '../texts/texts';
 import { ApartSlider } from './ApartSlider';
 import { dialog, openAny } from './actions';
 import { Compass } from './Compass';
 import { Composer } from './Composer';
 import { CutCard, CutHandle } from './CutCard';
-import { Dialog } from './Dialog';
 import { Dimensions } from './Dimensions';
-import { ExploreDialog } from './ExploreDialog';
 import { FirstScreen } from './FirstScreen';
 import { isEmbedded } from './frame';
 import { Handles } from './Handles';
-import { HelpDialog, Licences } from './HelpDialog';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
-import { lazily } from './lazily';
-import { ModelDialog } from './ModelDialog';
+import { Licences } from './Licences';
+import {
+  ExploreDialog,
+  HelpDialog,
+  ModelDialog,
+  PrintDialog,
+  ProgramDialog,
+  ReadingsDialog,
+  ShareDialog,
+} from './late_dialogs';
 import { OpenDialog } from './OpenDialog';
 import { PartsPanel } from './PartsPanel';
 import { PlaceOffer } from './PlaceCard';
-import { ProgramDialog } from './ProgramDialog';
-import { ReadingsDialog } from './ReadingsDialog';
 import { RightPanel } from './RightPanel';
-import { ShareDialog } from './ShareDialog';
+import { rich } from './rich';
 import { SplitOffer } from './SplitCard';
 import { StageView } from './StageView';
 import { StatusLine } from './StatusLine';
@@ -40,19 +45,6 @@ import { TopBar } from './TopBar';
 import { Tour, TourOffer } from './Tour';
 import { welcome } from './welcome';
 import type { FeatureKind } from './words';
-
-const PrintDialog = lazily(
-  async () => (await import('./PrintDialog')).PrintDialog,
-  (line) => (
-    <Dialog title="For printing" onClose={closeDialog}>
-      {line}
-    </Dialog>
-  ),
-);
-
-function closeDialog(): void {
-  dialog.value = null;
-}
 
 const phone = matchMedia('(max-width: 720px)');
 
@@ -111,10 +103,10 @@ export function App() {
           </Sheet>
         ) : (
           <>
-            <SidePanel title="Parts" side="left" open={partsOpen}>
+            <SidePanel title={t`Parts`} side="left" open={partsOpen}>
               {parts}
             </SidePanel>
-            <SidePanel title="Edits" side="right" open={editsOpen}>
+            <SidePanel title={t`Edits`} side="right" open={editsOpen}>
               {edits}
             </SidePanel>
           </>
@@ -140,7 +132,9 @@ export function App() {
       {!isPhone.value && (
         <footer class="foot quiet">
           <p>
-            After <a href="https://arxiv.org/abs/2405.20319">ParSEL</a>, Ganeshan et al. 2024
+            {rich(t`After <a>ParSEL</a>, Ganeshan et al. 2024`, {
+              a: (text) => <a href="https://arxiv.org/abs/2405.20319">{text}</a>,
+            })}
           </p>
           <Licences />
         </footer>
@@ -156,7 +150,7 @@ export function App() {
       {dialog.value === 'readings' && <ReadingsDialog />}
       {dropping.value && (
         <div class="drop" aria-hidden="true">
-          <p>Drop a model to open it</p>
+          <p>{t`Drop a model to open it`}</p>
         </div>
       )}
     </div>
@@ -179,7 +173,7 @@ function SidePanel({ title, side, open, children }: Foldable & { title: string; 
           type="button"
           class="button icon-only"
           aria-expanded={open.value}
-          aria-label={`${open.value ? 'Fold' : 'Unfold'} ${title}`}
+          aria-label={open.value ? t`Fold ${title}` : t`Unfold ${title}`}
           onClick={() => {
             open.value = !open.value;
           }}
@@ -194,7 +188,7 @@ function SidePanel({ title, side, open, children }: Foldable & { title: string; 
 
 function Sheet({ tab, open, children }: Foldable & { tab: { value: 'edits' | 'parts' } }) {
   return (
-    <section class={`sheet panel ${open.value ? '' : 'folded'}`} aria-label="Edits and parts">
+    <section class={`sheet panel ${open.value ? '' : 'folded'}`} aria-label={t`Edits and parts`}>
       <div class="tabs">
         {(['edits', 'parts'] as const).map((name) => (
           <button
@@ -206,7 +200,7 @@ function Sheet({ tab, open, children }: Foldable & { tab: { value: 'edits' | 'pa
               tab.value = name;
             }}
           >
-            {name === 'edits' ? 'Edits' : 'Parts'}
+            {name === 'edits' ? t`Edits` : t`Parts`}
           </button>
         ))}
       </div>

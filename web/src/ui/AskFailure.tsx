@@ -1,4 +1,5 @@
 // Why a language model gave no answer, with the way to the settings where these are at fault.
+import { t } from '../texts/texts';
 import { dialog } from './actions';
 import { Icon } from './Icon';
 
@@ -9,7 +10,7 @@ export function AskFailure({ text, isSetting }: { readonly text: string; readonl
       <p class="grow">{text}</p>
       {isSetting && (
         <button type="button" class="button outlined" onClick={() => (dialog.value = 'model')}>
-          Settings
+          {t`Settings`}
         </button>
       )}
     </div>

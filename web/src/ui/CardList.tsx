@@ -1,5 +1,7 @@
 // The cards in the order of their layers, those of a group under its name.
+
 import type { LayerEntry } from '../session/document';
+import { t } from '../texts/texts';
 import { foldedGroups, toggleGroup } from './folds';
 import { Icon } from './Icon';
 import { LayerCard } from './LayerCard';
@@ -19,7 +21,7 @@ export function CardList({ layers }: { layers: readonly LayerEntry[] }) {
         const isFolded = foldedGroups.value.has(group);
         const members = layers.filter((other) => other.group === group);
         return (
-          <li key={`group ${group}`} class="card-group" aria-label={`Group ${group}`}>
+          <li key={`group ${group}`} class="card-group" aria-label={t`Group ${group}`}>
             <button type="button" class="line" aria-expanded={!isFolded} onClick={() => toggleGroup(group)}>
               <Icon name={isFolded ? 'right' : 'down'} />
               <span>{group}</span> <span class="quiet">{members.length}</span>

@@ -1,8 +1,10 @@
 // Small parts of an edit's card: folding it, naming its group.
+
 import { useRef } from 'preact/hooks';
 import type { LayerEntry } from '../session/document';
 import { setGroup } from '../session/page_cards';
 import { document } from '../session/session';
+import { t } from '../texts/texts';
 import { folded, toggleFold } from './folds';
 import { Icon } from './Icon';
 
@@ -12,7 +14,7 @@ export function FoldButton({ id, title }: { id: number; title: string }) {
     <button
       type="button"
       class="button icon-only fold"
-      aria-label={`${isFolded ? 'Unfold' : 'Fold'} ${title}`}
+      aria-label={isFolded ? t`Unfold ${title}` : t`Fold ${title}`}
       aria-expanded={!isFolded}
       onClick={() => toggleFold(id)}
     >
@@ -32,8 +34,8 @@ export function GroupField({ entry, done }: { entry: LayerEntry; done: () => voi
         list="card-groups"
         value={entry.group ?? ''}
         maxLength={80}
-        placeholder="Name of the group; empty for none"
-        aria-label="Group of the edit"
+        placeholder={t`Name of the group; empty for none`}
+        aria-label={t`Group of the edit`}
         ref={(element) => element?.focus()}
         onBlur={(event) => {
           done();

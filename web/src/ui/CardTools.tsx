@@ -1,7 +1,9 @@
 // What can be done with all cards at once: the model as it was while a button is held, every slider back, presets, folding.
+
 import { useSignal } from '@preact/signals';
 import { applyPreset, removePreset, resetAll, savePreset } from '../session/page_cards';
 import { document, restIsShown, showRest, sliderValue, step } from '../session/session';
+import { t } from '../texts/texts';
 import { foldAll, folded } from './folds';
 import { Icon } from './Icon';
 import { Menu, type MenuItem } from './Menu';
@@ -15,23 +17,24 @@ export function CardTools() {
   const allFolded = layers.every(({ key }) => folded.value.has(key));
   const items: MenuItem[] = [
     ...presets.map(({ name }) => ({ label: name, act: () => applyPreset(name) })),
-    { label: 'Keep these positions…', act: () => (naming.value = true) },
-    ...presets.map(({ name }) => ({ label: `Forget “${name}”`, act: () => removePreset(name) })),
+    { label: t`Keep these positions…`, act: () => (naming.value = true) },
+    ...presets.map(({ name }) => ({ label: t`Forget “${name}”`, act: () => removePreset(name) })),
   ];
   return (
     <div class="card-tools">
       <CompareButton disabled={atRest} />
       <button type="button" class="button" disabled={atRest} onClick={resetAll}>
-        Reset all
+        {t`Reset all`}
       </button>
-      <Menu label="Presets" items={items}>
-        Presets{presets.length > 0 && ` · ${presets.length}`}
+      <Menu label={t`Presets`} items={items}>
+        {t`Presets`}
+        {presets.length > 0 && ` · ${presets.length}`}
       </Menu>
       <button
         type="button"
         class="button icon-only"
-        aria-label={allFolded ? 'Unfold all edits' : 'Fold all edits'}
-        title={allFolded ? 'Unfold all' : 'Fold all'}
+        aria-label={allFolded ? t`Unfold all edits` : t`Fold all edits`}
+        title={allFolded ? t`Unfold all` : t`Fold all`}
         onClick={() => foldAll(allFolded ? [] : layers.map(({ key }) => key))}
       >
         <Icon name={allFolded ? 'right' : 'down'} />
@@ -51,7 +54,7 @@ function CompareButton({ disabled }: { disabled: boolean }) {
       class="button"
       aria-pressed={restIsShown.value}
       disabled={disabled}
-      title="Hold to see the model as it was"
+      title={t`Hold to see the model as it was`}
       onPointerDown={(event) => {
         event.currentTarget.setPointerCapture(event.pointerId);
         show();
@@ -67,7 +70,7 @@ function CompareButton({ disabled }: { disabled: boolean }) {
       onBlur={hide}
       onContextMenu={(event) => event.preventDefault()}
     >
-      Compare
+      {t`Compare`}
     </button>
   );
 }
@@ -78,8 +81,8 @@ function PresetName({ done }: { done: () => void }) {
       class="preset-name"
       type="text"
       maxLength={80}
-      placeholder="Name, such as “low and wide”"
-      aria-label="Name of the preset"
+      placeholder={t`Name, such as “low and wide”`}
+      aria-label={t`Name of the preset`}
       ref={(element) => element?.focus()}
       onBlur={done}
       onKeyDown={(event) => {

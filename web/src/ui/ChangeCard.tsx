@@ -1,10 +1,12 @@
 // An edit reopened: what was asked for, field by field, what other parts should do; and of a count, its other reading.
+
 import { useSignal } from '@preact/signals';
 import { models } from '../session/core';
 import type { EditInput, Hint, LayerEntry } from '../session/document';
 import { editOf } from '../session/layer_seed';
 import { otherCount, remake } from '../session/remake';
 import { document, task } from '../session/session';
+import { m, t } from '../texts/texts';
 import { Hints } from './HandPanel';
 import { SeedFields } from './SeedFields';
 import { choiceOf, isWhole, seedOf } from './seed_choice';
@@ -25,7 +27,7 @@ export function ChangeCard({ entry, done }: { entry: LayerEntry; done: () => voi
   return (
     <form
       class="change-card"
-      aria-label="Change the edit"
+      aria-label={t`Change the edit`}
       onSubmit={async (event) => {
         event.preventDefault();
         const core = models.peek();
@@ -37,7 +39,7 @@ export function ChangeCard({ entry, done }: { entry: LayerEntry; done: () => voi
           <SeedFields
             shape={shape}
             choice={choiceOf(shape, statement)}
-            nothing="choose a part…"
+            nothing={t`choose a part…`}
             onChange={(next) => {
               if (isWhole(shape, next)) {
                 edit.value = { ...edit.value, seed: edit.value.seed.with(i, seedOf(shape, next)) };
@@ -49,10 +51,10 @@ export function ChangeCard({ entry, done }: { entry: LayerEntry; done: () => voi
       <Hints shape={shape} except="" chosen={hints} />
       <div class="row">
         <button type="submit" class="button primary" disabled={task.value !== null || models.value === null}>
-          Apply
+          {t`Apply`}
         </button>
         <button type="button" class="button" onClick={done}>
-          Cancel
+          {t`Cancel`}
         </button>
       </div>
     </form>
@@ -60,8 +62,8 @@ export function ChangeCard({ entry, done }: { entry: LayerEntry; done: () => voi
 }
 
 const otherWords = {
-  spacing: 'Keep the spacing instead, so that the row grows',
-  room: 'Keep the room instead, so that they stand closer',
+  spacing: m`Keep the spacing instead, so that the row grows`,
+  room: m`Keep the room instead, so that they stand closer`,
 } as const;
 
 /** A count can keep its room or its spacing: the one that it does not, in one click. */
@@ -79,7 +81,7 @@ export function OtherCount({ entry }: { entry: LayerEntry }) {
           void remake(models.peek() as NonNullable<typeof models.value>, entry.key, other.edit);
       }}
     >
-      {otherWords[other.keeps]}
+      {t(otherWords[other.keeps])}
     </button>
   );
 }

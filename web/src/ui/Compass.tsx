@@ -1,18 +1,21 @@
 // Which way the model faces: its four sides on a ring that lies on the ground and turns with the view. Left and right are
 // the object's own, as they are in all words here; each side is a button that looks from there. Below it, whose sides a
 // request means.
+
 import { useEffect, useRef } from 'preact/hooks';
 import { facing } from '../session/facing';
 import { sideFacing } from '../session/looking';
 import { document } from '../session/session';
+import { m, t } from '../texts/texts';
 import { SidesSwitch } from './SidesSwitch';
 import { stage } from './view';
+import { sideName } from './words';
 
 const sides = [
-  { view: 'front', letter: 'F', name: 'front', x: 0, z: 1 },
-  { view: 'left', letter: 'L', name: 'left', x: 1, z: 0 },
-  { view: 'back', letter: 'B', name: 'back', x: 0, z: -1 },
-  { view: 'right', letter: 'R', name: 'right', x: -1, z: 0 },
+  { view: 'front', letter: m`F@compass`, x: 0, z: 1 },
+  { view: 'left', letter: m`L@compass`, x: 1, z: 0 },
+  { view: 'back', letter: m`B@compass`, x: 0, z: -1 },
+  { view: 'right', letter: m`R@compass`, x: -1, z: 0 },
 ] as const;
 
 /** CSS pixels, as in style/compass.css. */
@@ -47,18 +50,18 @@ export function Compass({ right }: { right: number }) {
   }, [stage.value, document.value.model]);
   if (document.value.model === null) return null;
   return (
-    <section ref={root} class="compass" aria-label="Sides of the model" style={{ right: `${right + 20}px` }}>
+    <section ref={root} class="compass" aria-label={t`Sides of the model`} style={{ right: `${right + 20}px` }}>
       <span class="ring" />
-      {sides.map(({ view, letter, name }) => (
+      {sides.map(({ view, letter }) => (
         <button
           key={view}
           type="button"
           class={view === 'front' ? 'front' : ''}
-          aria-label={`Look from its ${name}`}
-          title={`Its ${name}: a click looks from there. Left and right are the object's own.`}
+          aria-label={t`Look from its ${sideName(view)}`}
+          title={t`Its ${sideName(view)}: a click looks from there. Left and right are the object's own.`}
           onClick={() => stage.peek()?.rig.look(view, true)}
         >
-          {letter}
+          {t(letter)}
         </button>
       ))}
       <SidesSwitch />

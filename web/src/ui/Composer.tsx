@@ -1,10 +1,12 @@
 // Where one says what to change: the request with the parts it mentions, what can be tried, how far the answers are, what
 // was understood, and what went wrong.
+
 import { effect, type Signal, useSignal } from '@preact/signals';
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import type { Estimate, TaskProgress } from '../llm/session';
 import { choiceOf, costOf, isDemo, settings } from '../llm/settings';
 import { models } from '../session/core';
+import { stepWords } from '../session/core_steps';
 import { nameOf } from '../session/document';
 import {
   cancelRequest,
@@ -18,6 +20,7 @@ import {
   unmention,
 } from '../session/requests';
 import { document, selection } from '../session/session';
+import { price, t } from '../texts/texts';
 import { dialog } from './actions';
 import { Icon } from './Icon';
 import { ReadingCard } from './ReadingCard';
@@ -46,7 +49,7 @@ export function Composer({ picking }: { picking: boolean }) {
   const isAsking = state.kind === 'asking';
   useMentions(picking, isFocused);
   if (document.value.model === null) return null;
-  const name = isDemo.value ? 'Recorded answers' : choiceOf(settings.value.provider).model;
+  const name = isDemo.value ? t`Recorded answers` : choiceOf(settings.value.provider).model;
 
   const send = () => void sendRequest();
   const onKeyDown = (event: KeyboardEvent) => {
@@ -58,7 +61,7 @@ export function Composer({ picking }: { picking: boolean }) {
     if (event.key !== 'Backspace') event.preventDefault();
   };
   return (
-    <section class="composer panel" aria-label="Request in words" ref={tellHeight}>
+    <section class="composer panel" aria-label={t`Request in words`} ref={tellHeight}>
       <div class="composer-said">
         {state.kind === 'understood' && state.model === document.value.model && (
           <ReadingCard key={state.answer} state={state} />
@@ -81,8 +84,8 @@ export function Composer({ picking }: { picking: boolean }) {
             maxLength={maxLength}
             value={requestText.value}
             readOnly={isAsking}
-            placeholder="Say what to change…"
-            aria-label="What to change"
+            placeholder={t`Say what to change…`}
+            aria-label={t`What to change`}
             onInput={(event) => {
               requestText.value = event.currentTarget.value;
               // What was wrong with a request goes with it.
@@ -100,19 +103,19 @@ export function Composer({ picking }: { picking: boolean }) {
         <button
           type="button"
           class="button suggest-button"
-          aria-label="Suggest sliders"
-          title="Suggest sliders for this model"
+          aria-label={t`Suggest sliders`}
+          title={t`Suggest sliders for this model`}
           disabled={models.value === null}
           onClick={suggestSliders}
         >
           <Icon name="sparkle" />
-          <span>Suggest sliders</span>
+          <span>{t`Suggest sliders`}</span>
         </button>
         <button
           type="button"
           class="button icon-only"
-          aria-label={`Language model: ${name}`}
-          title={`Language model: ${name}`}
+          aria-label={t`Language model: ${name}`}
+          title={t`Language model: ${name}`}
           aria-haspopup="dialog"
           onClick={() => (dialog.value = 'model')}
         >
@@ -121,8 +124,8 @@ export function Composer({ picking }: { picking: boolean }) {
         <button
           type="submit"
           class="button icon-only primary"
-          aria-label="Send"
-          title="Send (Enter)"
+          aria-label={t`Send`}
+          title={t`Send (Enter)`}
           disabled={isAsking || requestText.value.trim() === '' || models.value === null}
         >
           <Icon name="send" />
@@ -161,7 +164,7 @@ function Mentions() {
           <span>{nameOf(document.value, id)}</span>
           <button
             type="button"
-            aria-label={`Do not mention ${nameOf(document.value, id)}`}
+            aria-label={t`Do not mention ${nameOf(document.value, id)}`}
             onClick={() => unmention(id)}
           >
             <Icon name="close" />
@@ -172,8 +175,8 @@ function Mentions() {
         <button
           type="button"
           class="mention offered"
-          aria-label={`Mention ${nameOf(document.value, offered)}`}
-          title="Mention the selected part in the request"
+          aria-label={t`Mention ${nameOf(document.value, offered)}`}
+          title={t`Mention the selected part in the request`}
           onClick={() => mention(offered)}
         >
           + {nameOf(document.value, offered)}
@@ -190,16 +193,16 @@ function Asking({ tasks }: { tasks: readonly TaskProgress[] }) {
     <div class="asking">
       <span class="spinner" aria-hidden="true" />
       <div class="grow">
-        <p>Reading the request{of > 0 && `, ${done} of ${of} answers`}</p>
+        <p>{of > 0 ? t`Reading the request, ${done} of ${of} answers` : t`Reading the request`}</p>
         <p class="quiet">
           {tasks
             .filter((task) => task.of > 0)
-            .map((task) => `${task.words} ${task.done} of ${task.of}`)
+            .map((task) => t`${stepWords(task.words)} ${task.done} of ${task.of}`)
             .join(' · ')}
         </p>
       </div>
       <button type="button" class="button" onClick={cancelRequest}>
-        Cancel
+        {t`Cancel`}
       </button>
     </div>
   );
@@ -212,10 +215,10 @@ function Failed({ text, isSetting }: { text: string; isSetting: boolean }) {
       <p class="grow">{text}</p>
       {isSetting && (
         <button type="button" class="button" onClick={() => (dialog.value = 'model')}>
-          Settings
+          {t`Settings`}
         </button>
       )}
-      <button type="button" class="button icon-only" aria-label="Dismiss" onClick={dismiss}>
+      <button type="button" class="button icon-only" aria-label={t`Dismiss`} onClick={dismiss}>
         <Icon name="close" />
       </button>
     </div>
@@ -234,7 +237,7 @@ function Below() {
   if (open.length === 0 || (!isEmpty && request.value.kind !== 'failed')) return null;
   return (
     <div class="tries">
-      <span class="quiet">try:</span>
+      <span class="quiet">{t`try:`}</span>
       {open.map((known) => (
         <button
           key={`${known.request} ${known.mentioned.join()}`}
@@ -277,10 +280,12 @@ function EstimateLine() {
   if (found.value === null) return null;
   const { calls, inputTokens } = found.value;
   const cost = costOf({ input: inputTokens, output: 0 });
+  const thousands = Math.round(inputTokens / 1000);
   return (
     <p class="quiet estimate">
-      {calls} answers, about {Math.round(inputTokens / 1000).toLocaleString('en')} thousand tokens to send
-      {cost !== null && `, ${cost.toFixed(cost < 0.1 ? 4 : 2)}`}; what comes back is on top
+      {cost === null
+        ? t`${calls} answers, about ${thousands} thousand tokens to send; what comes back is on top`
+        : t`${calls} answers, about ${thousands} thousand tokens to send, ${price(cost)}; what comes back is on top`}
     </p>
   );
 }

@@ -1,4 +1,5 @@
 // Cutting parts by a plane: across which way, and where, by its slider, by its handle in the view, or by the arrow keys.
+
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { carveModel } from '../session/carving';
@@ -6,6 +7,7 @@ import { models } from '../session/core';
 import { cutPlane, cutStep, cutting, endCut, moveCut, turnCut } from '../session/cutting';
 import { formatLengths } from '../session/measure';
 import { document, selected, task } from '../session/session';
+import { plural, t } from '../texts/texts';
 import { Icon } from './Icon';
 import { stage } from './view';
 
@@ -40,13 +42,13 @@ export function CutCard() {
     void carveModel(models.value, step);
   };
   return (
-    <section class="panel note cut-card" aria-label="Cut">
+    <section class="panel note cut-card" aria-label={t`Cut`}>
       <label>
-        <span class="quiet">Cut</span>
+        <span class="quiet">{t`Cut`}</span>
         <select value={plane.direction.id} onChange={(event) => turnCut(event.currentTarget.value)}>
-          {plane.directions.map(({ id, label }) => (
+          {plane.directions.map(({ id, label, own = 0 }) => (
             <option key={id} value={id}>
-              {label}
+              {t(label, own)}
             </option>
           ))}
         </select>
@@ -57,18 +59,18 @@ export function CutCard() {
         max={0.99}
         step={0.005}
         value={cutting.value?.share ?? 0.5}
-        aria-label="Where the cut is"
-        aria-valuetext={`${lengths[0]} and ${lengths[1]} ${unit}`}
+        aria-label={t`Where the cut is`}
+        aria-valuetext={t`${lengths[0] ?? ''} and ${lengths[1] ?? ''} ${unit}`}
         onInput={(event) => moveCut(event.currentTarget.valueAsNumber)}
       />
       <span class="quiet">
         {lengths[0]} + {lengths[1]} {unit}
       </span>
       <button type="button" class="button primary" disabled={task.value !== null} onClick={cut}>
-        {selected.value.length > 1 ? `Cut ${selected.value.length} parts` : 'Cut'}
+        {selected.value.length > 1 ? plural(selected.value.length, 'Cut {n} part', 'Cut {n} parts') : t`Cut`}
       </button>
       <button type="button" class="button" onClick={endCut}>
-        Cancel
+        {t`Cancel`}
       </button>
     </section>
   );
@@ -102,8 +104,8 @@ export function CutHandle() {
         ref={root}
         type="button"
         class="handle whole cut"
-        aria-label="Move the cut"
-        title="Drag to move the cut"
+        aria-label={t`Move the cut`}
+        title={t`Drag to move the cut`}
         onPointerDown={(event) => {
           if (event.button !== 0) return;
           event.currentTarget.setPointerCapture(event.pointerId);

@@ -1,6 +1,8 @@
 // A native modal dialog with a title and a way out: Escape, the button, or a click beside it.
+
 import type { ComponentChildren } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
+import { t } from '../texts/texts';
 import { Icon } from './Icon';
 
 interface DialogProps {
@@ -27,7 +29,7 @@ export function Dialog({ title, onClose, children, ...rest }: DialogProps) {
       <div class="dialog-body">
         <header>
           <h2>{title}</h2>
-          <button type="button" class="button icon-only" aria-label="Close" onClick={() => dialog.current?.close()}>
+          <button type="button" class="button icon-only" aria-label={t`Close`} onClick={() => dialog.current?.close()}>
             <Icon name="close" />
           </button>
         </header>

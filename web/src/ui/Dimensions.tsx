@@ -1,5 +1,6 @@
 // Width, height and depth of the selected part, or of everything, as the sliders move; a length that is typed moves the
 // fitting slider, or makes it. The unit of all lengths is chosen here.
+
 import { useSignal } from '@preact/signals';
 import { models } from '../session/core';
 import { type LengthUnit, lengthUnits, nameOf } from '../session/document';
@@ -7,6 +8,7 @@ import { formatLengths, parseMeasure, type Size, sizeOf } from '../session/measu
 import { setUnit } from '../session/page_cards';
 import { compiled, document, selection, step, task } from '../session/session';
 import { setLength } from '../session/sizes';
+import { t } from '../texts/texts';
 import { lengthWords } from './words';
 
 export function Dimensions() {
@@ -19,23 +21,29 @@ export function Dimensions() {
   const part = id !== undefined && index >= 0 ? id : null;
   const size = sizeOf(model.shape, state.evaluator, part === null ? null : index);
   const { lengths, unit: shown } = formatLengths(size, unit);
-  const name = part === null ? '' : `${nameOf(document.value, part)} `;
+  const name = part === null ? '' : nameOf(document.value, part);
   return (
-    <fieldset class="dimensions" aria-label={part === null ? 'Size of the model' : `Size of ${name.trim()}`}>
-      {part !== null && <span class="quiet">{name}</span>}
+    <fieldset class="dimensions" aria-label={part === null ? t`Size of the model` : t`Size of ${name}`}>
+      {part !== null && <span class="quiet">{name} </span>}
       {lengthWords.map((what, axis) => (
-        <span key={`${part} ${what}`}>
+        <span key={`${part} ${axis}`}>
           {axis > 0 && <span aria-hidden="true"> × </span>}
-          <Length part={part} axis={axis as 0 | 1 | 2} size={size} text={lengths[axis] ?? ''} label={name + what} />
+          <Length
+            part={part}
+            axis={axis as 0 | 1 | 2}
+            size={size}
+            text={lengths[axis] ?? ''}
+            label={`${name} ${t(what)}`.trim()}
+          />
         </span>
       ))}
       <select
-        aria-label="Unit of lengths"
-        title="Unit of lengths"
+        aria-label={t`Unit of lengths`}
+        title={t`Unit of lengths`}
         value={unit ?? ''}
         onChange={(event) => setUnit((event.currentTarget.value || null) as LengthUnit | null)}
       >
-        <option value="">{unit === undefined ? shown : 'auto'}</option>
+        <option value="">{unit === undefined ? shown : t`auto`}</option>
         {lengthUnits.map((one) => (
           <option key={one} value={one}>
             {one}
@@ -76,9 +84,9 @@ function Length({ part, axis, size, text, label }: LengthProps) {
       size={Math.max(2, shown.length)}
       value={shown}
       disabled={task.value !== null}
-      aria-label={`${label}, type a length`}
+      aria-label={t`${label}, type a length`}
       aria-invalid={wrong.value}
-      title={`${label}: type a length`}
+      title={t`${label}: type a length`}
       onFocus={(event) => event.currentTarget.select()}
       onInput={(event) => {
         typed.value = event.currentTarget.value;

@@ -1,8 +1,11 @@
 // Where a model goes in: dropped, or picked. What a good model is stands beside it.
+
 import { models } from '../session/core';
 import { pickable, readPicked } from '../session/files';
+import { t } from '../texts/texts';
 import { openAny } from './actions';
 import { Icon } from './Icon';
+import { rich } from './rich';
 
 /** @param onPicked called when files have been picked, before they are read */
 export function DropZone({ onPicked }: { onPicked: () => void }) {
@@ -10,11 +13,13 @@ export function DropZone({ onPicked }: { onPicked: () => void }) {
     <div class="drop-zone">
       <Icon name="open" />
       <p class="grow">
-        <strong>Drop a model anywhere on this page</strong>
-        <span class="quiet">.glb, .gltf or .obj with its files, .3mf, .ply, .stl, .scad, .csg, .zip, .parsel.json</span>
+        <strong>{t`Drop a model anywhere on this page`}</strong>
+        <span class="quiet">
+          {t`.glb, .gltf or .obj with its files, .3mf, .ply, .stl, .scad, .csg, .zip, .parsel.json`}
+        </span>
       </p>
-      <FileButton label="Files…" onPicked={onPicked} />
-      <FileButton label="Folder…" folder onPicked={onPicked} />
+      <FileButton label={t`Files…`} onPicked={onPicked} />
+      <FileButton label={t`Folder…`} folder onPicked={onPicked} />
     </div>
   );
 }
@@ -22,9 +27,10 @@ export function DropZone({ onPicked }: { onPicked: () => void }) {
 export function GoodModel() {
   return (
     <p class="quiet good-model">
-      A good model has <strong>separate parts</strong> (seat, legs and back as meshes of their own), which{' '}
-      <strong>touch</strong> where they are joined, and <strong>names</strong> that say what they are. Furniture,
-      shelves, fences, lamps, houses: whatever is put together of pieces. The file stays on this machine.
+      {rich(
+        t`A good model has <b>separate parts</b> (seat, legs and back as meshes of their own), which <b>touch</b> where they are joined, and <b>names</b> that say what they are. Furniture, shelves, fences, lamps, houses: whatever is put together of pieces. The file stays on this machine.`,
+        { b: (text) => <strong>{text}</strong> },
+      )}
     </p>
   );
 }
@@ -37,7 +43,7 @@ function FileButton({ label, folder = false, onPicked }: { label: string; folder
       <input
         type="file"
         class="visually-hidden"
-        aria-label={folder ? 'Open a folder' : 'Open files'}
+        aria-label={folder ? t`Open a folder` : t`Open files`}
         disabled={!ready}
         multiple
         ref={(input) => {

@@ -1,4 +1,5 @@
 // The program: its layers as cards, what can be asked of this model at once, and the way to an edit by hand.
+
 import type { Signal } from '@preact/signals';
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
@@ -7,6 +8,7 @@ import { editsOf } from '../session/family_state';
 import { loadGallery, type Suggestion } from '../session/gallery';
 import { playOnce } from '../session/play';
 import { compiled, document, propagate, task } from '../session/session';
+import { t } from '../texts/texts';
 import { showText } from './actions';
 import { CardList } from './CardList';
 import { CardTools } from './CardTools';
@@ -34,19 +36,18 @@ export function EditsPanel({ pickKind }: EditsProps) {
     if (layers.length === known.current + 1) cards.current?.lastElementChild?.scrollIntoView({ block: 'nearest' });
     known.current = layers.length;
   }, [layers.length]);
-  if (model === null) return <p class="quiet empty">Edits appear here, each with a slider.</p>;
+  if (model === null) return <p class="quiet empty">{t`Edits appear here, each with a slider.`}</p>;
   const state = compiled.value;
   return (
     <>
       {layers.length === 0 && pickKind.value === null && (
         <p class="quiet empty">
-          No edits yet. Let sliders be suggested, say what to change, or click a part in the view and pull its handles:
-          the others follow.
+          {t`No edits yet. Let sliders be suggested, say what to change, or click a part in the view and pull its handles: the others follow.`}
         </p>
       )}
       {state.kind === 'refused' && (
         <p class="broken" role="alert">
-          These edits do not go together: {state.text}
+          {t`These edits do not go together: ${state.text}`}
         </p>
       )}
       <CardTools />
@@ -68,10 +69,10 @@ export function EditsPanel({ pickKind }: EditsProps) {
                 pickKind.value = 'whole';
               }}
             >
-              <Icon name="hand" /> Edit by hand
+              <Icon name="hand" /> {t`Edit by hand`}
             </button>
             <button type="button" class="button wide" onClick={() => showText(null)}>
-              <Icon name="text" /> Add from text
+              <Icon name="text" /> {t`Add from text`}
             </button>
           </div>
         </>
@@ -107,8 +108,8 @@ function Suggestions() {
   // Where requests are recorded, the request box offers those.
   if (open.length === 0 || recorded.length > 0) return null;
   return (
-    <section class="suggestions" aria-label="Suggestions">
-      <h3>Try</h3>
+    <section class="suggestions" aria-label={t`Suggestions`}>
+      <h3>{t`Try`}</h3>
       {open.map(({ request, edit }) => (
         <button
           key={request}

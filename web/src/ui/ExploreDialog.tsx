@@ -1,4 +1,5 @@
 // Nine siblings of the model to choose from: every slider somewhere in its range.
+
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { checkProgram } from '../program/check';
@@ -8,6 +9,7 @@ import { programOf } from '../session/document';
 import { activeLayers } from '../session/evaluation';
 import { document, notice, task } from '../session/session';
 import { drawSiblings, type Sibling, takeSibling } from '../session/siblings';
+import { t } from '../texts/texts';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
 import { canvasOf, paint } from './pictures';
@@ -53,14 +55,16 @@ export function ExploreDialog() {
   };
   const fault = notice.value?.kind === 'error' ? notice.value.text : '';
   return (
-    <Dialog title="Siblings" class="explore" onClose={close}>
-      <p class="quiet">Every slider somewhere in its range, where all of them go together. Click the one you like.</p>
+    <Dialog title={t`Siblings`} class="explore" onClose={close}>
+      <p class="quiet">
+        {t`Every slider somewhere in its range, where all of them go together. Click the one you like.`}
+      </p>
       <ul class="siblings" aria-busy={isDrawing.value}>
         {drawn.value.map(({ sibling, url }, i) => (
           <li key={url}>
             <button
               type="button"
-              aria-label={`Sibling ${i + 1}`}
+              aria-label={t`Sibling ${i + 1}`}
               onClick={() => {
                 takeSibling(sibling);
                 close();
@@ -72,11 +76,11 @@ export function ExploreDialog() {
         ))}
       </ul>
       <p role="status" class={fault === '' ? 'quiet' : 'broken'}>
-        {isDrawing.value ? 'Looking for settings that go together…' : fault}
+        {isDrawing.value ? t`Looking for settings that go together…` : fault}
       </p>
       <div class="row">
         <button type="button" class="button primary" disabled={isDrawing.value} onClick={() => void more()}>
-          Nine others
+          {t`Nine others`}
         </button>
       </div>
     </Dialog>

@@ -1,5 +1,6 @@
 // Kinds that a language model suggests, as cards: each comes in with a picture when its numbers are there, and is kept as a
 // variation or dropped.
+
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { costOf, isDemo } from '../llm/settings';
@@ -7,6 +8,7 @@ import type { FamilyState } from '../session/family_state';
 import { kinds } from '../session/kind_suggestions';
 import type { AskedKinds, KindCard } from '../session/kinds';
 import { task } from '../session/session';
+import { price, t } from '../texts/texts';
 import { AskFailure } from './AskFailure';
 import { Icon } from './Icon';
 import { drawKinds, kindPictures } from './kind_pictures';
@@ -31,10 +33,10 @@ export function SuggestKinds() {
         type="button"
         class="button outlined"
         disabled={isRunning || task.value !== null}
-        title="Asks a language model which kinds of this there are, and draws the most common ones"
+        title={t`Asks a language model which kinds of this there are, and draws the most common ones`}
         onClick={() => void kinds.start()}
       >
-        <Icon name="sparkle" /> Suggest kinds
+        <Icon name="sparkle" /> {t`Suggest kinds`}
       </button>
       {!isDemo.value && (
         <>
@@ -42,13 +44,13 @@ export function SuggestKinds() {
             class="grow"
             type="text"
             maxLength={60}
-            placeholder="Or one that you name"
-            aria-label="A kind to draw"
+            placeholder={t`Or one that you name`}
+            aria-label={t`A kind to draw`}
             value={name.value}
             onInput={(event) => (name.value = event.currentTarget.value)}
           />
           <button type="submit" class="button" disabled={typed === '' || isRunning}>
-            Draw
+            {t`Draw`}
           </button>
         </>
       )}
@@ -68,9 +70,9 @@ export function FamilyKinds({ family }: { family: FamilyState }) {
   const drawn = asked.cards.filter(({ state }) => state.kind === 'drawn');
   const known = new Set(family.found.family.variations.map(({ name }) => name));
   return (
-    <section class="suggested" aria-label="Suggested kinds" ref={section}>
+    <section class="suggested" aria-label={t`Suggested kinds`} ref={section}>
       <header class="row">
-        <h3 class="grow">Suggested kinds</h3>
+        <h3 class="grow">{t`Suggested kinds`}</h3>
         {drawn.length > 1 && (
           <button
             type="button"
@@ -78,14 +80,14 @@ export function FamilyKinds({ family }: { family: FamilyState }) {
             disabled={asked.isRunning || task.value !== null}
             onClick={() => void kinds.keep()}
           >
-            Keep all {drawn.length}
+            {t`Keep all ${drawn.length}`}
           </button>
         )}
         <button
           type="button"
           class="button icon-only"
-          aria-label="Drop all suggested kinds"
-          title="Drop all"
+          aria-label={t`Drop all suggested kinds`}
+          title={t`Drop all`}
           onClick={kinds.close}
         >
           <Icon name="close" />
@@ -115,14 +117,14 @@ function Progress({ asked }: { asked: AskedKinds }) {
       {isRunning && <span class="spinner" aria-hidden="true" />}
       <p class="grow quiet">
         {isAsking
-          ? 'Asking which kinds there are'
+          ? t`Asking which kinds there are`
           : isRunning
-            ? `Asking what they measure, ${done} of ${wanted.length}`
+            ? t`Asking what they measure, ${done} of ${wanted.length}`
             : endWords(asked)}
       </p>
       {isRunning && (
         <button type="button" class="button outlined" onClick={kinds.stop}>
-          Cancel
+          {t`Cancel`}
         </button>
       )}
     </div>
@@ -132,13 +134,13 @@ function Progress({ asked }: { asked: AskedKinds }) {
 function endWords({ cards, spent }: AskedKinds): string {
   const drawn = cards.filter(({ state }) => state.kind === 'drawn').length;
   if (drawn === 0) return '';
-  if (isDemo.value) return `${drawn} drawn · recorded answers`;
+  if (isDemo.value) return `${t`${drawn} drawn`} · ${t`recorded answers`}`;
   const { input, output } = spent.tokens;
   const cost = costOf(spent.tokens);
   return [
-    `${drawn} drawn`,
-    spent.calls > 0 && `${spent.calls} answers, ${(input + output).toLocaleString('en')} tokens`,
-    spent.calls > 0 && cost !== null && `cost ${cost.toFixed(cost < 0.1 ? 4 : 2)}`,
+    t`${drawn} drawn`,
+    spent.calls > 0 && t`${spent.calls} answers, ${input + output} tokens`,
+    spent.calls > 0 && cost !== null && t`cost ${price(cost)}`,
   ]
     .filter(Boolean)
     .join(' · ');
@@ -150,25 +152,22 @@ function Others({ asked }: { asked: AskedKinds }) {
   if (others.length === 0 || asked.isRunning) return null;
   return (
     <details>
-      <summary>Also named: {others.length}</summary>
-      {isDemo.value && <p class="quiet">Their numbers are not recorded: to draw them needs a key.</p>}
+      <summary>{t`Also named: ${others.length}`}</summary>
+      {isDemo.value && <p class="quiet">{t`Their numbers are not recorded: to draw them needs a key.`}</p>}
       <ul class="other-kinds">
         {others.map(({ name, words, votes }) => (
           <li key={name} class="row">
             <p class="grow">
-              {name}{' '}
-              <span class="quiet">
-                {words} · {votes} of {asked.answers}
-              </span>
+              {name} <span class="quiet">{`${words} · ${t`${votes} of ${asked.answers}`}`}</span>
             </p>
             {!isDemo.value && (
               <button
                 type="button"
                 class="button outlined"
-                aria-label={`Draw ${name}`}
+                aria-label={t`Draw ${name}`}
                 onClick={() => void kinds.draw(name)}
               >
-                Draw
+                {t`Draw`}
               </button>
             )}
           </li>
@@ -188,7 +187,7 @@ interface CardProps {
 function Card({ asked, card, isKnown }: CardProps) {
   const { name, words, votes, state } = card;
   const url = state.kind === 'drawn' ? kindPictures.value.get(state.picture) : undefined;
-  const named = votes === 0 ? '' : `${votes} of ${asked.answers} answers name it`;
+  const named = votes === 0 ? '' : t`${votes} of ${asked.answers} answers name it`;
   return (
     <li class="card proposal kind" aria-label={name}>
       <span class="thumbnail">{url !== undefined && <img src={url} alt="" />}</span>
@@ -196,9 +195,9 @@ function Card({ asked, card, isKnown }: CardProps) {
         <h4>{name}</h4>
         {words !== '' && <p class="quiet">{words}</p>}
         {state.kind === 'asking' && (
-          <p class="quiet">{state.of > 1 ? `${state.done} of ${state.of} answers` : 'Being asked…'}</p>
+          <p class="quiet">{state.of > 1 ? t`${state.done} of ${state.of} answers` : t`Being asked…`}</p>
         )}
-        {state.kind === 'stopped' && <p class="quiet">Not drawn: it was stopped.</p>}
+        {state.kind === 'stopped' && <p class="quiet">{t`Not drawn: it was stopped.`}</p>}
         {state.kind === 'refused' && (
           <p class="broken unclean">
             <Icon name="warning" />
@@ -213,10 +212,10 @@ function Card({ asked, card, isKnown }: CardProps) {
                 type="button"
                 class="button outlined"
                 disabled={task.value !== null}
-                title={isKnown ? 'The variation of this name gives way' : 'Makes it one of the variations'}
+                title={isKnown ? t`The variation of this name gives way` : t`Makes it one of the variations`}
                 onClick={() => void kinds.keep([name])}
               >
-                <Icon name="check" /> {isKnown ? 'Replace' : 'Keep'}
+                <Icon name="check" /> {isKnown ? t`Replace` : t`Keep`}
               </button>
             ) : (
               <button
@@ -225,11 +224,11 @@ function Card({ asked, card, isKnown }: CardProps) {
                 disabled={asked.isRunning}
                 onClick={() => void kinds.draw(name)}
               >
-                Try again
+                {t`Try again`}
               </button>
             )}
-            <button type="button" class="button" aria-label={`Drop ${name}`} onClick={() => kinds.drop(name)}>
-              Drop
+            <button type="button" class="button" aria-label={t`Drop ${name}`} onClick={() => kinds.drop(name)}>
+              {t`Drop`}
             </button>
           </div>
         )}
@@ -251,7 +250,7 @@ function drawnWords(
     counts.set(stem, (counts.get(stem) ?? 0) + 1);
   }
   const stems = [...counts].map(([stem, count]) => (count === 1 ? stem : `${stem} × ${count}`));
-  const lacks = stems.length === 0 ? '' : `without ${listWords(stems)}`;
-  const left = refused === 0 ? '' : `${refused} of ${refused + votes} answers could not be used`;
+  const lacks = stems.length === 0 ? '' : t`without ${listWords(stems)}`;
+  const left = refused === 0 ? '' : t`${refused} of ${refused + votes} answers could not be used`;
   return [lacks, left].filter(Boolean).join(' · ');
 }

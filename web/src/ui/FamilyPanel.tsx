@@ -1,5 +1,6 @@
 // The family of a CAD program: its variations as pictures, the few sliders that they leave, mixtures, parts that not all
 // have, and what they have in common.
+
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { models } from '../session/core';
@@ -7,6 +8,7 @@ import type { OpenModel } from '../session/document';
 import { type FamilyState, settingOf, shapeIds } from '../session/family_state';
 import { interrupt } from '../session/play';
 import { family as actions, document, setHidden, step, task } from '../session/session';
+import { plural, t } from '../texts/texts';
 import { FamilyKinds, SuggestKinds } from './FamilyKinds';
 import { FamilyShared } from './FamilyShared';
 import { FamilySlider } from './FamilySlider';
@@ -28,10 +30,10 @@ export function FamilyPanel() {
       <Strip family={family} model={model} />
       <FamilyKinds family={family} />
       <Optional family={family} ids={ids} />
-      <section aria-label="Sliders">
+      <section aria-label={t`Sliders`}>
         <h3>
-          {counts.sliders} {counts.sliders === 1 ? 'slider' : 'sliders'}{' '}
-          <span class="quiet">for {Object.keys(family.found.values).length} numbers of the program</span>
+          {plural(counts.sliders, '{n} slider', '{n} sliders')}{' '}
+          <span class="quiet">{t`for ${Object.keys(family.found.values).length} numbers of the program`}</span>
         </h3>
         {sections.map((section) => (
           <div key={section} class="family-section">
@@ -61,7 +63,7 @@ export function FamilyPanel() {
         </button>
         {family.found.family.variations.length > 0 && (
           <button type="button" class="button wide" onClick={() => void exportSets()}>
-            <Icon name="export" /> Parameter sets
+            <Icon name="export" /> {t`Parameter sets`}
           </button>
         )}
       </div>
@@ -77,11 +79,11 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
   const { files } = model;
   useEffect(() => drawFamily(files, family), [files, pictures]);
   const entries = [
-    { name: 'as drawn', setting: family.found.family.sliders.map(({ value }) => value) },
+    { name: t`as drawn`, setting: family.found.family.sliders.map(({ value }) => value) },
     ...variations.map(({ name }, i) => ({ name, setting: settingOf(family, i) })),
   ];
   return (
-    <section aria-label="Variations">
+    <section aria-label={t`Variations`}>
       <ul class="strip">
         {entries.map(({ name, setting }, i) => (
           <li key={name}>
@@ -100,8 +102,8 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
               <button
                 type="button"
                 class="button icon-only remove"
-                aria-label={`Remove ${name}`}
-                title="Remove this variation"
+                aria-label={t`Remove ${name}`}
+                title={t`Remove this variation`}
                 onClick={() => models.value && void actions.removeVariation(models.value, i - 1)}
               >
                 <Icon name="close" />
@@ -134,13 +136,13 @@ function Keep({ family }: { family: FamilyState }) {
         class="grow"
         type="text"
         maxLength={60}
-        placeholder="Name of what you see"
-        aria-label="Name of the variation"
+        placeholder={t`Name of what you see`}
+        aria-label={t`Name of the variation`}
         value={name.value}
         onInput={(event) => (name.value = event.currentTarget.value)}
       />
       <button type="submit" class="button" disabled={typed === '' || taken || task.value !== null}>
-        {taken ? 'Name is taken' : 'Keep as variation'}
+        {taken ? t`Name is taken` : t`Keep as variation`}
       </button>
     </form>
   );
@@ -154,12 +156,12 @@ function Optional({ family, ids }: { family: FamilyState; ids: ReadonlyMap<strin
   if (optional.length === 0) return null;
   return (
     <fieldset class="optional">
-      <legend>Not all have</legend>
+      <legend>{t`Not all have`}</legend>
       {optional.map((group) => {
         const those = group.parts.flatMap((id) => ids.get(id) ?? []);
         const names = group.parts.map((id) => parts.find((part) => part.id === id)?.name ?? id);
         return (
-          <label key={group.parts.join(' ')} class="check" title={`Not in: ${group.absent_from.join(', ')}`}>
+          <label key={group.parts.join(' ')} class="check" title={t`Not in: ${group.absent_from.join(', ')}`}>
             <input
               type="checkbox"
               checked={!those.some((id) => hidden.has(id))}
@@ -179,8 +181,8 @@ function Mix({ family }: { family: FamilyState }) {
   if (variations.length === 0) return null;
   const weights = actions.mixing.value ?? family.weights;
   return (
-    <section aria-label="Mix">
-      <h3>Mix</h3>
+    <section aria-label={t`Mix`}>
+      <h3>{t`Mix`}</h3>
       <ul class="family-section">
         {variations.map(({ name }, i) => {
           const weight = weights[i] ?? 0;
@@ -197,7 +199,7 @@ function Mix({ family }: { family: FamilyState }) {
                   max={1}
                   step={0.01}
                   value={weight}
-                  aria-label={`Mix in ${name}`}
+                  aria-label={t`Mix in ${name}`}
                   aria-valuetext={percent}
                   onPointerDown={interrupt}
                   onInput={(event) => actions.mix(i, event.currentTarget.valueAsNumber, false)}

@@ -1,4 +1,5 @@
 // What the variations have in common, a line a class: each can be switched, and shows its faces while it is pointed at.
+
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import type { CadSource } from '../scene/load';
@@ -6,6 +7,7 @@ import { models } from '../session/core';
 import { type Agreement, choicesFor, type SharedClass, sharedClasses } from '../session/family_shared';
 import type { FamilyState } from '../session/family_state';
 import { family as actions, pointedAt } from '../session/session';
+import { listed, m, type Sentence, t } from '../texts/texts';
 
 interface FamilySharedProps {
   readonly family: FamilyState;
@@ -14,26 +16,26 @@ interface FamilySharedProps {
   readonly ids: ReadonlyMap<string, string>;
 }
 
-const sections: readonly (readonly [Agreement, string, string])[] = [
-  ['common', 'In common', 'Kept by every slider. Switch off what is not meant.'],
-  ['near', 'All but one', 'True of all variations but the one that is named. Switch on what is meant all the same.'],
-  ['accidental', 'By accident', 'True of the program as it is drawn, and of few others.'],
+const sections: readonly (readonly [Agreement, Sentence, Sentence])[] = [
+  ['common', m`In common`, m`Kept by every slider. Switch off what is not meant.`],
+  ['near', m`All but one`, m`True of all variations but the one that is named. Switch on what is meant all the same.`],
+  ['accidental', m`By accident`, m`True of the program as it is drawn, and of few others.`],
 ];
 
 export function FamilyShared({ family, cad, ids }: FamilySharedProps) {
   const { constraints } = family.found.family;
   const classes = useMemo(() => sharedClasses(constraints, cad.parts), [constraints, cad]);
   return (
-    <section aria-label="What they have in common">
+    <section aria-label={t`What they have in common`}>
       {sections.map(([agreement, title, help]) => {
         const own = classes.filter((shared) => shared.agreement === agreement);
         if (own.length === 0) return null;
         return (
           <details key={agreement} class="shared">
             <summary>
-              {title} <span class="quiet">{own.length}</span>
+              {t(title)} <span class="quiet">{own.length}</span>
             </summary>
-            <p class="quiet">{help}</p>
+            <p class="quiet">{t(help)}</p>
             <ul>
               {own.map((shared) => (
                 <Line key={shared.key} shared={shared} ids={ids} />
@@ -59,8 +61,7 @@ function Line({ shared, ids }: { shared: SharedClass; ids: ReadonlyMap<string, s
     pointedAt.value = null;
   };
   const broken = shared.brokenBy;
-  const not =
-    broken.length > 2 ? `${broken.slice(0, 2).join(', ')} and ${broken.length - 2} more` : broken.join(' and ');
+  const not = broken.length > 2 ? t`${broken.slice(0, 2).join(', ')} and ${broken.length - 2} more` : listed(broken);
   return (
     <li onPointerEnter={show} onPointerLeave={hide} onFocus={show} onBlur={hide}>
       <label class="check">
@@ -80,7 +81,7 @@ function Line({ shared, ids }: { shared: SharedClass; ids: ReadonlyMap<string, s
           {shared.of > 0 && (
             <span class="quiet">
               {' '}
-              · {shared.agreement === 'common' ? `in all ${shared.of} that have it` : `not in the ${not}`}
+              · {shared.agreement === 'common' ? t`in all ${shared.of} that have it` : t`not in the ${not}`}
             </span>
           )}
         </span>

@@ -1,10 +1,12 @@
 // A slider of a family: drags and types like any other, and stops where parts would run into each other, saying which.
+
 import { useSignal } from '@preact/signals';
 import { useId } from 'preact/hooks';
 import { type FamilyState, lengthAt, type Stops, stopsOf, valueAt } from '../session/family_state';
 import { formatMeasure, larger, parseMeasure } from '../session/measure';
 import { interrupt } from '../session/play';
 import { family as actions, entryOf, settle, setValue, slide, step } from '../session/session';
+import { t } from '../texts/texts';
 
 const steps = 200;
 
@@ -40,7 +42,7 @@ export function FamilySlider({ family, index, isAbsent }: FamilySliderProps) {
     const least = Math.max(low, stops.low);
     const most = Math.min(high, stops.high);
     const text = wanted < stops.low ? stops.lowText : wanted > stops.high ? stops.highText : null;
-    said.value = text === null ? null : `No further: ${text}.`;
+    said.value = text === null ? null : t`No further: ${text}.`;
     return valueAt(family, index, Math.min(most, Math.max(least, wanted)));
   };
   const move = (length: number, inRun = false) => setValue(key, held(length), inRun);
@@ -75,7 +77,7 @@ export function FamilySlider({ family, index, isAbsent }: FamilySliderProps) {
           aria-label={slider.name}
           aria-valuetext={show(now)}
           aria-describedby={said.value === null ? undefined : note}
-          title="Double-click resets"
+          title={t`Double-click resets`}
           onPointerDown={interrupt}
           onInput={(event) => {
             const input = event.currentTarget;
@@ -95,7 +97,7 @@ export function FamilySlider({ family, index, isAbsent }: FamilySliderProps) {
         />
       </div>
       <TypedLength
-        label={`${slider.name}, type a value`}
+        label={t`${slider.name}, type a value`}
         text={show(now)}
         read={(typed) => parseMeasure('width', typed, like)}
         take={(length) => move(length / metres)}
@@ -135,7 +137,7 @@ function TypedLength({ label, text, read, take }: TypedLengthProps) {
       inputMode="decimal"
       aria-label={label}
       aria-invalid={wrong.value}
-      title={wrong.value ? `Type a number, such as ${text}` : undefined}
+      title={wrong.value ? t`Type a number, such as ${text}` : undefined}
       value={typed.value ?? text}
       onFocus={(event) => event.currentTarget.select()}
       onInput={(event) => (typed.value = event.currentTarget.value)}

@@ -1,6 +1,8 @@
 // What stands on an empty stage: how to begin.
+
 import { awaited, offered } from '../session/open';
 import { document, task } from '../session/session';
+import { t } from '../texts/texts';
 import { dialog } from './actions';
 import { GoodModel } from './DropZone';
 import { Icon } from './Icon';
@@ -8,11 +10,11 @@ import { Icon } from './Icon';
 export function FirstScreen() {
   if (document.value.model !== null || task.value || awaited.value !== null || offered.value !== null) return null;
   return (
-    <section class="first panel" aria-label="Begin">
-      <h2>Open a model, say what to change, get sliders</h2>
-      <p>Drop a file anywhere on this page.</p>
+    <section class="first panel" aria-label={t`Begin`}>
+      <h2>{t`Open a model, say what to change, get sliders`}</h2>
+      <p>{t`Drop a file anywhere on this page.`}</p>
       <button type="button" class="button primary" onClick={() => (dialog.value = 'open')}>
-        <Icon name="open" /> Open a model…
+        <Icon name="open" /> {t`Open a model…`}
       </button>
       <GoodModel />
     </section>

@@ -1,8 +1,10 @@
 // What was found in the model, in one line, with a way to what is loose.
+
 import { useMemo } from 'preact/hooks';
 import type { Shape } from '../program/types';
 import { inventoryOf, inventoryWords } from '../session/inventory';
 import { selectAll } from '../session/session';
+import { plural, t } from '../texts/texts';
 import { focusView } from './view';
 
 export function Found({ shape }: { shape: Shape }) {
@@ -11,20 +13,21 @@ export function Found({ shape }: { shape: Shape }) {
   return (
     <div class="found">
       <p class="quiet">
-        {inventoryWords(found)}
-        {found.parts === 1 && '. Only parts that are meshes of their own can move against each other.'}
+        {found.parts === 1
+          ? t`${inventoryWords(found)}. Only parts that are meshes of their own can move against each other.`
+          : inventoryWords(found)}
       </p>
       {loose.length > 0 && (
         <button
           type="button"
           class="chip-button"
-          title="They touch nothing, so that they stay behind when other parts move. A click selects them."
+          title={t`They touch nothing, so that they stay behind when other parts move. A click selects them.`}
           onClick={() => {
             selectAll(loose);
             focusView();
           }}
         >
-          {loose.length === 1 ? '1 part hangs loose' : `${loose.length} parts hang loose`}
+          {plural(loose.length, '{n} part hangs loose', '{n} parts hang loose')}
         </button>
       )}
     </div>

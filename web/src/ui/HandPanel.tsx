@@ -1,5 +1,6 @@
 // An edit by hand: a part or one of its faces, edges and corners, an operator, what the others should do, and which
 // relations may give way. Propagation finds the rest and leaves a layer with a slider.
+
 import { type Signal, useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { Shape } from '../program/types';
@@ -8,6 +9,7 @@ import { type EditInput, type Hint, hints, nameOf, wholePart } from '../session/
 import { playOnce } from '../session/play';
 import { document, propagate, select, selected, selection, task } from '../session/session';
 import { standIns } from '../session/several';
+import { t } from '../texts/texts';
 import { Icon } from './Icon';
 import { operators, SeedFields } from './SeedFields';
 import { firstChoice, isOfGroup, isWhole, seedOf, withPart } from './seed_choice';
@@ -48,11 +50,11 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
       disabled: [...disabled.value],
       hints: Object.fromEntries(chosenHints.value),
     };
-    const label = operators.find(({ id }) => id === choice.op)?.label ?? '';
+    const label = operators.find(({ id }) => id === choice.op)?.label;
     const isOfWhole = featureKind(choice.feature) === 'whole' || isOfGroup(choice.op);
-    const what = isOfWhole ? '' : ` ${featureWords(choice.feature)} of`;
     const names = listWords(parts.map((id) => nameOf(document.peek(), id)));
-    const key = await propagate(models.value, edit, `${label}${what} ${names}`);
+    const what = isOfWhole ? names : t`${featureWords(choice.feature)} of ${names}`;
+    const key = await propagate(models.value, edit, `${label ? t(label) : ''} ${what}`.trim());
     if (key === null) return;
     onDone();
     playOnce(key);
@@ -62,7 +64,7 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
     <form
       ref={form}
       class="hand"
-      aria-label="Edit by hand"
+      aria-label={t`Edit by hand`}
       onSubmit={(event) => {
         event.preventDefault();
         void apply();
@@ -71,7 +73,7 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
       <SeedFields
         shape={shape}
         choice={choice}
-        nothing="click one in the view…"
+        nothing={t`click one in the view…`}
         onChange={(next) => {
           chosen.value = next;
           pickKind.value = featureKind(next.feature);
@@ -83,8 +85,8 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
         <div class="together">
           <p class="quiet">
             {isOfGroup(choice.op)
-              ? 'Only this one: rows have their number and spacing each for itself.'
-              : `The same for ${listWords(parts.slice(1).map((id) => nameOf(document.value, id)))}.`}
+              ? t`Only this one: rows have their number and spacing each for itself.`
+              : t`The same for ${listWords(parts.slice(1).map((id) => nameOf(document.value, id)))}.`}
           </p>
           {hasOrigin && (
             <label class="check">
@@ -95,7 +97,7 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
                   aboutOne.value = event.currentTarget.checked;
                 }}
               />
-              <span>all from the one point, not each from its own</span>
+              <span>{t`all from the one point, not each from its own`}</span>
             </label>
           )}
         </div>
@@ -104,10 +106,10 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
       {choice.part !== '' && <Disabled shape={shape} part={choice.part} disabled={disabled} />}
       <div class="row">
         <button type="submit" class="button primary" disabled={!ready}>
-          Apply
+          {t`Apply`}
         </button>
         <button type="button" class="button" onClick={onDone}>
-          Cancel
+          {t`Cancel`}
         </button>
       </div>
     </form>
@@ -132,25 +134,28 @@ export function Hints({
   };
   return (
     <details>
-      <summary>What other parts should do{chosen.value.size > 0 && ` · ${chosen.value.size}`}</summary>
+      <summary>
+        {t`What other parts should do`}
+        {chosen.value.size > 0 && ` · ${chosen.value.size}`}
+      </summary>
       {[...chosen.value].map(([id, hint]) => (
         <div class="row" key={id}>
           <span class="grow">{nameOf(document.value, id)}</span>
           <select
-            aria-label={`What ${nameOf(document.value, id)} should do`}
+            aria-label={t`What ${nameOf(document.value, id)} should do`}
             value={hint}
             onChange={(event) => set(id, event.currentTarget.value as Hint)}
           >
             {hints.map((kind) => (
               <option key={kind} value={kind}>
-                {hintWords[kind]}
+                {t(hintWords[kind])}
               </option>
             ))}
           </select>
           <button
             type="button"
             class="button icon-only"
-            aria-label={`Forget ${nameOf(document.value, id)}`}
+            aria-label={t`Forget ${nameOf(document.value, id)}`}
             onClick={() => set(id, null)}
           >
             <Icon name="close" />
@@ -158,13 +163,13 @@ export function Hints({
         </div>
       ))}
       <select
-        aria-label="Add a part"
+        aria-label={t`Add a part`}
         value=""
         onChange={(event) => {
           if (event.currentTarget.value) set(event.currentTarget.value, 'keep_fixed');
         }}
       >
-        <option value="">add a part…</option>
+        <option value="">{t`add a part…`}</option>
         {free.map(({ id }) => (
           <option key={id} value={id}>
             {nameOf(document.value, id)}
@@ -177,10 +182,10 @@ export function Hints({
 
 function Disabled({ shape, part, disabled }: { shape: Shape; part: string; disabled: Signal<ReadonlySet<string>> }) {
   const kinds = [
-    ['kind:reflection', 'all mirror symmetries'],
-    ['kind:translation', 'all even rows'],
-    ['kind:rotation', 'all rings'],
-    ['kind:ground', 'all that stands on the floor'],
+    ['kind:reflection', t`all mirror symmetries`],
+    ['kind:translation', t`all even rows`],
+    ['kind:rotation', t`all rings`],
+    ['kind:ground', t`all that stands on the floor`],
   ] as const;
   const own = shape.relations.filter(({ parts }) => parts.includes(part));
   const items = [
@@ -189,7 +194,10 @@ function Disabled({ shape, part, disabled }: { shape: Shape; part: string; disab
   ];
   return (
     <details>
-      <summary>What may come apart{disabled.value.size > 0 && ` · ${disabled.value.size}`}</summary>
+      <summary>
+        {t`What may come apart`}
+        {disabled.value.size > 0 && ` · ${disabled.value.size}`}
+      </summary>
       {items.map(([id, words]) => (
         <label class="check" key={id}>
           <input

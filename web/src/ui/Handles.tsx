@@ -1,5 +1,6 @@
 // Handles on the selected part: its faces can be grabbed and pulled, its middle moves it; also an edge or a corner that
 // is selected. They are buttons, so that the keyboard pulls as well.
+
 import { useSignal, useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { Axis, LocalTriple } from '../program/types';
@@ -12,6 +13,7 @@ import { beginPull, cancelPull, endPull, faceNormal, pull, pullBy, pullTo } from
 import { readLayer } from '../session/reading';
 import { compiled, document, entryOf, select, selected, selection, sliderValue, step } from '../session/session';
 import { standIns } from '../session/several';
+import { t } from '../texts/texts';
 import { Icon } from './Icon';
 import { apart, shown, stage } from './view';
 import { featureKind, featureWords, listWords } from './words';
@@ -130,14 +132,14 @@ function Handle({ part, id, also, feature, isSelected }: HandleProps) {
   const dragged = useRef(false); // the click that follows is not one
   const kind = featureKind(feature);
   const name = nameOf(document.value, id);
-  const what = kind === 'whole' ? name : `${featureWords(feature)} of ${name}`;
+  const what = kind === 'whole' ? name : t`${featureWords(feature)} of ${name}`;
   const held = pull.value !== null && pull.value.grab.part === id && isSame(pull.value.grab.feature, feature);
 
   const begin = (axis: Axis, oneSided: boolean) => {
     const core = models.peek();
     if (core === null) return Promise.resolve(false);
     const names = listWords([id, ...also].map((one) => nameOf(document.peek(), one)));
-    const request = kind === 'whole' ? `Move ${names}` : `Pull ${featureWords(feature)} of ${names}`;
+    const request = kind === 'whole' ? t`Move ${names}` : t`Pull ${t`${featureWords(feature)} of ${names}`}`;
     return beginPull(core, { part: id, also, feature, axis, oneSided }, request);
   };
   const along = ({ x, y }: Point) => {
@@ -166,11 +168,13 @@ function Handle({ part, id, also, feature, isSelected }: HandleProps) {
       type="button"
       class={`handle ${kind} ${isSelected ? 'selected' : ''} ${held ? 'held' : ''}`}
       data-feature={feature.join()}
-      aria-label={kind === 'whole' ? `Move ${what}` : `Pull ${what}`}
+      aria-label={kind === 'whole' ? t`Move ${what}` : t`Pull ${what}`}
       title={
         kind === 'whole'
-          ? 'Drag to move'
-          : `Drag to pull the ${featureWords(feature)}${kind === 'face' ? '; with Alt this side only' : ''}`
+          ? t`Drag to move`
+          : kind === 'face'
+            ? t`Drag to pull the ${featureWords(feature)}; with Alt this side only`
+            : t`Drag to pull the ${featureWords(feature)}`
       }
       onPointerDown={(event) => {
         if (event.button !== 0) return;
@@ -266,7 +270,7 @@ function Reading() {
     const show = (length: number) =>
       layer.measure ? formatMeasure(layer.measure.what, length, like, document.peek().unit) : '';
     const reading = layer.measure ? `${show(layer.before)} → ${show(now)}` : '';
-    text.value = `${reading}${atEnd ? ' · as far as it goes' : ''}`;
+    text.value = atEnd ? `${reading} · ${t`as far as it goes`}` : reading;
   });
   return (
     <span class="pull-reading" role="status">

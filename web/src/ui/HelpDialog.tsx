@@ -1,67 +1,54 @@
 // The keyboard sheet, and what this is.
+import { m, type Sentence, t } from '../texts/texts';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
+import { Licences } from './Licences';
+import { rich } from './rich';
 
-const keys: readonly (readonly [keys: string, what: string])[] = [
-  ['Drag, right-drag, wheel', 'turn, move, zoom'],
-  ['Drag a handle', 'pull a face of the selected part, or move it; with Alt one side only; Escape leaves it'],
-  ['Arrows on a handle', 'the same by keyboard; Enter keeps it'],
-  ['F', 'bring the selected part, or everything, into view'],
-  ['1 · 3 · 7', 'front, side, top view'],
-  ['Shift+click, Shift+drag', 'select several parts; Ctrl+A selects all'],
-  ['H · I · Alt+H', 'hide what is selected, show only that, show all'],
-  ['Arrows in the list', 'from part to part; with Shift they select; right and left unfold and fold a row'],
-  ['S · R', 'stop at whole centimetres while dragging; a ruler between two points'],
-  ['E', 'parts apart, parts together'],
-  ['Escape', 'let go of the selection'],
-  ['Space', 'animate the last edit'],
-  ['Ctrl+Z · Ctrl+Shift+Z', 'undo, redo'],
-  ['Ctrl+O · Ctrl+S', 'open, save the session'],
-  ['Arrows on the view', 'turn it; + and − zoom'],
-  ['Arrows on a slider', 'one step; with Shift ten, with Alt a tenth'],
-  ['Double-click on a slider', 'back to the model as it was'],
+const keys: readonly (readonly [keys: string | Sentence, what: Sentence])[] = [
+  [m`Drag, right-drag, wheel`, m`turn, move, zoom`],
+  [m`Drag a handle`, m`pull a face of the selected part, or move it; with Alt one side only; Escape leaves it`],
+  [m`Arrows on a handle`, m`the same by keyboard; Enter keeps it`],
+  ['F', m`bring the selected part, or everything, into view`],
+  ['1 · 3 · 7', m`front, side, top view`],
+  [m`Shift+click, Shift+drag`, m`select several parts; Ctrl+A selects all`],
+  [m`H · I · Alt+H`, m`hide what is selected, show only that, show all`],
+  [m`Arrows in the list`, m`from part to part; with Shift they select; right and left unfold and fold a row`],
+  ['S · R', m`stop at whole centimetres while dragging; a ruler between two points`],
+  ['E', m`parts apart, parts together`],
+  [m`Escape`, m`let go of the selection`],
+  [m`Space`, m`animate the last edit`],
+  [m`Ctrl+Z · Ctrl+Shift+Z`, m`undo, redo`],
+  [m`Ctrl+O · Ctrl+S`, m`open, save the session`],
+  [m`Arrows on the view`, m`turn it; + and − zoom`],
+  [m`Arrows on a slider`, m`one step; with Shift ten, with Alt a tenth`],
+  [m`Double-click on a slider`, m`back to the model as it was`],
 ];
-
-/** The build puts both files beside the page. */
-export function Licences() {
-  return (
-    <p>
-      Free software, GPL 3 or later:{' '}
-      <a href="./licences.txt" target="_blank" rel="noopener">
-        licences
-      </a>
-      ,{' '}
-      <a href="./source.tar.gz" download>
-        source
-      </a>
-    </p>
-  );
-}
 
 export function HelpDialog() {
   return (
     <Dialog
-      title="Keyboard and help"
+      title={t`Keyboard and help`}
       onClose={() => {
         dialog.value = null;
       }}
     >
       <p>
-        Pick a part, say how it changes, and the other parts follow so that what is joined stays joined and what is
-        symmetric stays symmetric. How much is the slider's.
+        {t`Pick a part, say how it changes, and the other parts follow so that what is joined stays joined and what is symmetric stays symmetric. How much is the slider's.`}
       </p>
       <dl class="keys">
         {keys.map(([combination, what]) => (
-          <div key={combination}>
-            <dt>{combination}</dt>
-            <dd>{what}</dd>
+          <div key={what}>
+            <dt>{typeof combination === 'string' ? combination : t(combination)}</dt>
+            <dd>{t(what)}</dd>
           </div>
         ))}
       </dl>
       <p class="quiet">
-        After <a href="https://arxiv.org/abs/2405.20319">ParSEL: Parameterized Shape Editing with Language</a>, Ganeshan
-        et al. 2024. Models never leave this machine. When you ask a language model, its provider gets your request and
-        the names, sizes and relations of the parts.
+        {rich(
+          t`After <a>ParSEL: Parameterized Shape Editing with Language</a>, Ganeshan et al. 2024. Models never leave this machine. When you ask a language model, its provider gets your request and the names, sizes and relations of the parts.`,
+          { a: (text) => <a href="https://arxiv.org/abs/2405.20319">{text}</a> },
+        )}
       </p>
       <div class="quiet">
         <Licences />

@@ -1,4 +1,5 @@
 // One edit as a card: its request, its slider, what it keeps, and on demand every statement with its why.
+
 import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import type { Statement } from '../program/types';
@@ -8,16 +9,17 @@ import { titleOf } from '../session/layers';
 import { duplicateLayer } from '../session/page_cards';
 import { playing, playOn, stop } from '../session/play';
 import { document, moveLayer, pointedAt, removeLayer, renameLayer, setEnabled } from '../session/session';
+import { plural, t } from '../texts/texts';
 import { showText } from './actions';
 import { FoldButton, GroupField } from './CardParts';
 import { ChangeCard, OtherCount } from './ChangeCard';
 import { folded } from './folds';
 import { Icon } from './Icon';
 import { Menu } from './Menu';
-import { showReadings } from './ReadingsDialog';
+import { showReadings } from './readings';
 import { ValueSlider } from './ValueSlider';
 import { brokenWords, inWords, whyNothingElse } from './why';
-import { capital, groupMembers, keptWords, relationWords, statementWords, whyWords } from './words';
+import { capital, groupMembers, keptWords, relationWords, sideName, statementWords, whyWords } from './words';
 
 interface CardProps {
   readonly entry: LayerEntry;
@@ -44,8 +46,8 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
         <button
           type="button"
           class="button icon-only"
-          aria-label={isPlaying ? `Stop ${title}` : `Animate ${title}`}
-          title={isPlaying ? 'Stop' : 'Animate'}
+          aria-label={isPlaying ? t`Stop ${title}` : t`Animate ${title}`}
+          title={isPlaying ? t`Stop` : t`Animate`}
           aria-disabled={!enabled || unfit !== null}
           onClick={() => {
             if (isPlaying) stop();
@@ -56,19 +58,19 @@ export function LayerCard({ entry, first, last, plain = false }: CardProps) {
         </button>
         {!plain && (
           <Menu
-            label={`More about ${title}`}
+            label={t`More about ${title}`}
             class="button icon-only"
             items={[
-              { label: 'Rename', act: () => (renaming.value = true) },
-              { label: 'Other readings', disabled: layer.request === '', act: () => showReadings(entry) },
-              { label: 'Change…', disabled: unfit !== null, act: () => (changing.value = true) },
-              { label: 'Duplicate', disabled: unfit !== null, act: () => duplicateLayer(key) },
-              { label: entry.group ? 'Other group…' : 'Group…', act: () => (grouping.value = true) },
-              { label: 'Show as text', act: () => showText(key) },
-              { label: enabled ? 'Switch off' : 'Switch on', act: () => setEnabled(key, !enabled) },
-              { label: 'Move up', disabled: first, act: () => moveLayer(key, -1) },
-              { label: 'Move down', disabled: last, act: () => moveLayer(key, 1) },
-              { label: 'Remove', act: () => removeLayer(key) },
+              { label: t`Rename`, act: () => (renaming.value = true) },
+              { label: t`Other readings`, disabled: layer.request === '', act: () => showReadings(entry) },
+              { label: t`Change…`, disabled: unfit !== null, act: () => (changing.value = true) },
+              { label: t`Duplicate`, disabled: unfit !== null, act: () => duplicateLayer(key) },
+              { label: entry.group ? t`Other group…` : t`Group…`, act: () => (grouping.value = true) },
+              { label: t`Show as text`, act: () => showText(key) },
+              { label: enabled ? t`Switch off` : t`Switch on`, act: () => setEnabled(key, !enabled) },
+              { label: t`Move up`, disabled: first, act: () => moveLayer(key, -1) },
+              { label: t`Move down`, disabled: last, act: () => moveLayer(key, 1) },
+              { label: t`Remove`, act: () => removeLayer(key) },
             ]}
           >
             <Icon name="more" />
@@ -92,12 +94,12 @@ function Body({ entry, plain, unfit }: { entry: LayerEntry; plain: boolean; unfi
         <p class="unfit">
           <Icon name="warning" />
           <span>
-            Rests, since it does not fit the parts as they are labelled now. <span class="quiet">{unfit}</span>
+            {t`Rests, since it does not fit the parts as they are labelled now.`} <span class="quiet">{unfit}</span>
           </span>
         </p>
       )}
-      {!enabled && <p class="quiet">Switched off</p>}
-      {!plain && entry.seen && <p class="quiet">Its sides were said looking at its {entry.seen}</p>}
+      {!enabled && <p class="quiet">{t`Switched off`}</p>}
+      {!plain && entry.seen && <p class="quiet">{t`Its sides were said looking at its ${sideName(entry.seen)}`}</p>}
       {!plain && unfit === null && <Status entry={entry} />}
       {!plain && unfit === null && <OtherCount entry={entry} />}
       {!plain && <Statements statements={layer.statements} />}
@@ -112,7 +114,7 @@ function RenameField({ entry, done }: { entry: LayerEntry; done: () => void }) {
       class="rename"
       value={entry.layer.request}
       maxLength={400}
-      aria-label="Name of the edit"
+      aria-label={t`Name of the edit`}
       ref={(element) => element?.focus()}
       onBlur={(event) => {
         done();
@@ -145,7 +147,7 @@ function Status({ entry }: { entry: LayerEntry }) {
   if (model === null) return null;
   if (kept === '') {
     return model.shape.relations.length > 0 ? (
-      <p class="quiet">Written by hand: what it keeps was not worked out.</p>
+      <p class="quiet">{t`Written by hand: what it keeps was not worked out.`}</p>
     ) : null;
   }
   const alone = whyNothingElse(entry);
@@ -158,7 +160,10 @@ function Status({ entry }: { entry: LayerEntry }) {
         <Icon name={broken ? 'warning' : 'check'} />
         <span>
           {kept}
-          <span class="quiet">{sampled === 0 ? ' · proved' : ` · ${sampled} sampled, the others proved`}</span>
+          <span class="quiet">
+            {' · '}
+            {sampled === 0 ? t`proved` : t`${sampled} sampled, the others proved`}
+          </span>
         </span>
       </p>
       {notable.length > 0 && (
@@ -167,7 +172,9 @@ function Status({ entry }: { entry: LayerEntry }) {
             const relation = model.shape.relations.find(({ id }) => id === report.id);
             if (relation === undefined) return null;
             const text =
-              report.status === 'disabled' ? 'ignored, as asked' : brokenWords(document.value, layer, relation, report);
+              report.status === 'disabled'
+                ? t`ignored, as asked`
+                : brokenWords(document.value, layer, relation, report);
             return (
               <li key={report.id}>
                 <button type="button" class={`line ${report.status}`} {...point(relation.parts, [relation.id])}>
@@ -191,9 +198,7 @@ function Status({ entry }: { entry: LayerEntry }) {
 function Statements({ statements }: { statements: readonly Statement[] }) {
   return (
     <details class="statements">
-      <summary>
-        {statements.length} {statements.length === 1 ? 'statement' : 'statements'}
-      </summary>
+      <summary>{plural(statements.length, '{n} statement', '{n} statements')}</summary>
       <ol>
         {statements.map((statement, i) => (
           <StatementLine key={i} statement={statement} />
@@ -230,6 +235,6 @@ function StatementLine({ statement }: { statement: Statement }) {
 function formula(statement: Statement): string {
   const { op, why, ...fields } = statement;
   const text = Object.entries(fields).map(([name, value]) => `${name}: ${JSON.stringify(value).replaceAll('"', '')}`);
-  const reason = why && why.relations.length > 0 ? `\nbecause of ${why.relations.join(', ')}` : '';
+  const reason = why && why.relations.length > 0 ? `\n${t`because of ${why.relations.join(', ')}`}` : '';
   return `${op}\n${text.join('\n')}${reason}`;
 }

@@ -5,6 +5,8 @@ import { useEffect, useRef } from 'preact/hooks';
 
 export interface MenuItem {
   readonly label: string;
+  /** Of the label, where it is not that of the page. */
+  readonly lang?: string;
   readonly hint?: string;
   readonly disabled?: boolean;
   readonly act: () => void;
@@ -70,6 +72,7 @@ export function Menu({ label, items, children, ...rest }: MenuProps) {
               key={item.label}
               type="button"
               role="menuitem"
+              lang={item.lang}
               aria-disabled={item.disabled ?? false}
               onClick={() => {
                 if (item.disabled) return;

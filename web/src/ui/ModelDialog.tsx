@@ -1,11 +1,12 @@
 // Which language model is asked: provider, address, model, key, votes, prices. Changes hold at once.
+
 import { useSignal } from '@preact/signals';
 import { useEffect, useId } from 'preact/hooks';
 import { clearReplies } from '../llm/cache';
 import { defaultModel, lookedUp } from '../llm/default_models';
 import { complete, listModels } from '../llm/http';
 import { forgetKey, type Keeping, keepKey, keyFor } from '../llm/keys';
-import { isAllowed, isLocal, type Provider, providerOf, providers } from '../llm/providers';
+import { isAllowed, isLocal, type Provider, providerOf, providers, titleOfProvider } from '../llm/providers';
 import {
   choiceOf,
   choose,
@@ -18,28 +19,30 @@ import {
   settings,
 } from '../llm/settings';
 import { sentence } from '../session/tasks';
+import { type Language, language, languages, m, number, plural, type Sentence, t } from '../texts/texts';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
+import { changeLanguage } from './language';
 import { SoFar, WhatIsSent } from './ModelCost';
 
-const keepings: readonly { id: Keeping; label: string }[] = [
-  { id: 'memory', label: 'Only until this page closes' },
-  { id: 'session', label: 'Until this tab closes, reloads included' },
-  { id: 'remember', label: 'Remember it in this browser' },
+const keepings: readonly { id: Keeping; label: Sentence }[] = [
+  { id: 'memory', label: m`Only until this page closes` },
+  { id: 'session', label: m`Until this tab closes, reloads included` },
+  { id: 'remember', label: m`Remember it in this browser` },
 ];
 
 export function ModelDialog() {
   const provider = providerOf(settings.value.provider);
   return (
     <Dialog
-      title="Language model"
+      title={t`Language model`}
       class="model-dialog"
       onClose={() => {
         dialog.value = null;
       }}
     >
       <label class="field">
-        <span>Provider</span>
+        <span>{t`Provider`}</span>
         <select
           value={settings.value.provider}
           onChange={(event) => {
@@ -48,24 +51,24 @@ export function ModelDialog() {
             else choose(id, {});
           }}
         >
-          <option value={recorded}>Recorded answers, without a key</option>
-          {providers.map(({ id, title }) => (
-            <option key={id} value={id}>
-              {title}
+          <option value={recorded}>{t`Recorded answers, without a key`}</option>
+          {providers.map((one) => (
+            <option key={one.id} value={one.id}>
+              {titleOfProvider(one)}
             </option>
           ))}
         </select>
       </label>
       {isDemo.value || provider === undefined ? (
         <p class="quiet">
-          The suggestions of the gallery’s models work with answers that language models gave before. To ask anything of
-          any model, choose a provider. Requests then go from this browser straight to that provider, and nowhere else.
+          {t`The suggestions of the gallery’s models work with answers that language models gave before. To ask anything of any model, choose a provider. Requests then go from this browser straight to that provider, and nowhere else.`}
         </p>
       ) : (
         <ProviderFields key={provider.id} provider={provider} />
       )}
+      <LanguageField />
       <button type="button" class="button primary" onClick={() => (dialog.value = null)}>
-        Done
+        {t`Done`}
       </button>
     </Dialog>
   );
@@ -85,12 +88,12 @@ function ProviderFields({ provider }: { provider: Provider }) {
       {provider.pitfalls.length > 0 && (
         <ul class="pitfalls">
           {provider.pitfalls.map((text) => (
-            <li key={text}>{text}</li>
+            <li key={text}>{t(text)}</li>
           ))}
         </ul>
       )}
       <label class="field">
-        <span>Base URL</span>
+        <span>{t`Base URL`}</span>
         <input
           type="url"
           value={choice.base}
@@ -102,28 +105,27 @@ function ProviderFields({ provider }: { provider: Provider }) {
       </label>
       {!allowed && (
         <p class="broken" id={hint}>
-          This page may only talk to the listed providers and to http://localhost or http://127.0.0.1 with any port. A
-          gateway elsewhere needs its host added to the page’s security policy.
+          {t`This page may only talk to the listed providers and to http://localhost or http://127.0.0.1 with any port. A gateway elsewhere needs its host added to the page’s security policy.`}
         </p>
       )}
       {provider.keysAt !== null && <KeyFields provider={provider} base={choice.base} />}
       <label class="field">
-        <span>Model</span>
+        <span>{t`Model`}</span>
         <input
           type="text"
           value={choice.model}
           list={modelList}
           spellcheck={false}
           autocomplete="off"
-          placeholder={defaultModel(provider.id) || 'name, as the provider writes it'}
+          placeholder={defaultModel(provider.id) || t`name, as the provider writes it`}
           aria-describedby={modelHint}
           onChange={(event) => change({ model: event.currentTarget.value.trim() })}
         />
       </label>
       <p class="quiet" id={modelHint}>
         {choice.model === ''
-          ? `Left empty: ${defaultModel(provider.id)}, a sensible one when it was looked up (${day(lookedUp)}). Type any other, or list them.`
-          : `Emptied, it is ${defaultModel(provider.id)} again.`}
+          ? t`Left empty: ${defaultModel(provider.id)}, a sensible one when it was looked up (${day(lookedUp)}). Type any other, or list them.`
+          : t`Emptied, it is ${defaultModel(provider.id)} again.`}
       </p>
       <datalist id={modelList}>
         {known.value.map((name) => (
@@ -132,13 +134,13 @@ function ProviderFields({ provider }: { provider: Provider }) {
       </datalist>
       <Checks provider={provider} onModels={(names) => (known.value = names)} />
       <label class="field">
-        <span>Answers to each question</span>
+        <span>{t`Answers to each question`}</span>
         <input
           type="number"
           min={1}
           max={maxVotes}
           value={settings.value.votes ?? ''}
-          placeholder={local ? '1' : `${measuredVotes.request} to ${measuredVotes.kinds}`}
+          placeholder={local ? '1' : t`${measuredVotes.request} to ${measuredVotes.kinds}`}
           onChange={(event) => {
             const typed = event.currentTarget.valueAsNumber;
             const votes = Number.isNaN(typed) ? null : Math.round(Math.min(maxVotes, Math.max(1, typed)));
@@ -148,29 +150,29 @@ function ProviderFields({ provider }: { provider: Provider }) {
         />
       </label>
       <p class="quiet">
-        More than one are put to the vote, and cost as much more. Left empty:{' '}
         {local
-          ? 'one, as this machine is slow'
-          : `${measuredVotes.request} for a request, ${measuredVotes.names} for names of parts, ${measuredVotes.kinds} for kinds of a thing, as they were measured`}
-        .
+          ? t`More than one are put to the vote, and cost as much more. Left empty: one, as this machine is slow.`
+          : t`More than one are put to the vote, and cost as much more. Left empty: ${measuredVotes.request} for a request, ${measuredVotes.names} for names of parts, ${measuredVotes.kinds} for kinds of a thing, as they were measured.`}
       </p>
       <SoFar />
-      <WhatIsSent host={URL.canParse(choice.base) ? new URL(choice.base).host : provider.title} sees={provider.sees} />
+      <WhatIsSent
+        host={URL.canParse(choice.base) ? new URL(choice.base).host : titleOfProvider(provider)}
+        sees={provider.sees}
+      />
       <details>
-        <summary>Prices and kept answers</summary>
+        <summary>{t`Prices and kept answers`}</summary>
         <p class="quiet">
-          With the provider’s prices for a million tokens, in any currency, the cost of a request is shown before it is
-          sent.
+          {t`With the provider’s prices for a million tokens, in any currency, the cost of a request is shown before it is sent.`}
         </p>
         {(['inputPrice', 'outputPrice'] as const).map((field) => (
           <label class="field" key={field}>
-            <span>{field === 'inputPrice' ? 'Price in' : 'Price out'}</span>
+            <span>{field === 'inputPrice' ? t`Price in` : t`Price out`}</span>
             <input
               type="number"
               min={0}
               step="any"
               value={choice[field] ?? ''}
-              placeholder="not known"
+              placeholder={t`not known`}
               onChange={(event) => {
                 const price = event.currentTarget.valueAsNumber;
                 change({ [field]: Number.isNaN(price) ? null : Math.max(0, price) });
@@ -185,7 +187,7 @@ function ProviderFields({ provider }: { provider: Provider }) {
 }
 
 const day = (date: string): string =>
-  new Date(`${date}T12:00`).toLocaleDateString('en', { day: 'numeric', month: 'long', year: 'numeric' });
+  new Date(`${date}T12:00`).toLocaleDateString(language.value, { day: 'numeric', month: 'long', year: 'numeric' });
 
 function KeyFields({ provider, base }: { provider: Provider; base: string }) {
   const { key, keeping } = keyFor(base);
@@ -193,18 +195,18 @@ function KeyFields({ provider, base }: { provider: Provider; base: string }) {
   return (
     <>
       <label class="field">
-        <span>Key</span>
+        <span>{t`Key`}</span>
         <input
           type="password"
           value={key}
           autocomplete="off"
           spellcheck={false}
-          placeholder="paste it here"
+          placeholder={t`paste it here`}
           onChange={(event) => keepKey(base, event.currentTarget.value, wanted.value)}
         />
       </label>
       <fieldset>
-        <legend>Keep the key</legend>
+        <legend>{t`Keep the key`}</legend>
         {keepings.map(({ id, label }) => (
           <label class="check" key={id}>
             <input
@@ -216,20 +218,20 @@ function KeyFields({ provider, base }: { provider: Provider; base: string }) {
                 if (key !== '') keepKey(base, key, id);
               }}
             />
-            <span>{label}</span>
+            <span>{t(label)}</span>
           </label>
         ))}
       </fieldset>
       <div class="row">
         <p class="quiet grow">
-          It goes to {URL.canParse(base) ? new URL(base).host : 'the provider'} only.{' '}
+          {t`It goes to ${URL.canParse(base) ? new URL(base).host : t`the provider`} only.`}{' '}
           <a href={provider.keysAt ?? ''} target="_blank" rel="noreferrer">
-            Make a key
+            {t`Make a key`}
           </a>
-          {wanted.value === 'remember' && ' Whoever uses this browser can read a remembered key.'}
+          {wanted.value === 'remember' && ` ${t`Whoever uses this browser can read a remembered key.`}`}
         </p>
         <button type="button" class="button" disabled={key === ''} onClick={() => forgetKey(base)}>
-          Forget the key
+          {t`Forget the key`}
         </button>
       </div>
     </>
@@ -254,29 +256,35 @@ function Checks({ provider, onModels }: { provider: Provider; onModels: (names: 
     }
   };
   const test = () =>
-    run('Asking…', async (signal) => {
+    run(t`Asking…`, async (signal) => {
       const begin = performance.now();
       const call = { prompt: 'Reply with the one word: ready', schema: null };
       const { tokens } = await complete(currentTarget(), call, { signal });
-      const seconds = ((performance.now() - begin) / 1000).toFixed(1);
-      const cost = tokens === null ? '' : `, for ${tokens.input + tokens.output} tokens`;
-      return `It answered in ${seconds} s${cost}.`;
+      const seconds = number((performance.now() - begin) / 1000, 1, 1);
+      if (tokens === null) return t`It answered in ${seconds} s.`;
+      return t`It answered in ${seconds} s, for ${tokens.input + tokens.output} tokens.`;
     });
   const list = () =>
-    run('Listing…', async (signal) => {
+    run(t`Listing…`, async (signal) => {
       const { base, model } = choiceOf(provider.id);
       const { key } = keyFor(base);
       const names = await listModels({ provider, base: base.replace(/\/+$/, ''), model, key }, { signal });
       onModels(names);
-      return names.length === 0 ? 'None are listed.' : `${names.length} models: choose one in the field above.`;
+      return names.length === 0
+        ? t`None are listed.`
+        : plural(
+            names.length,
+            '{n} model: choose it in the field above.',
+            '{n} models: choose one in the field above.',
+          );
     });
   return (
     <div class="checks">
       <button type="button" class="button" onClick={test}>
-        {provider.keysAt === null ? 'Test the connection' : 'Test this key'}
+        {provider.keysAt === null ? t`Test the connection` : t`Test this key`}
       </button>
       <button type="button" class="button" onClick={list}>
-        List models
+        {t`List models`}
       </button>
       <p role="status" class={result.value?.kind === 'bad' ? 'broken' : 'quiet'}>
         {result.value?.text}
@@ -289,7 +297,7 @@ function ForgetReplies() {
   const done = useSignal(false);
   return (
     <p class="row">
-      <span class="quiet grow">Answers are kept in this browser, so that none is paid for twice.</span>
+      <span class="quiet grow">{t`Answers are kept in this browser, so that none is paid for twice.`}</span>
       <button
         type="button"
         class="button"
@@ -298,8 +306,24 @@ function ForgetReplies() {
           done.value = true;
         }}
       >
-        {done.value ? 'Forgotten' : 'Forget them'}
+        {done.value ? t`Forgotten` : t`Forget them`}
       </button>
     </p>
+  );
+}
+
+/** Every language by its own name, so that it is found by whoever cannot read the page. */
+function LanguageField() {
+  return (
+    <label class="field">
+      <span>{t`Language of this page`}</span>
+      <select value={language.value} onChange={(event) => void changeLanguage(event.currentTarget.value as Language)}>
+        {Object.entries(languages).map(([id, name]) => (
+          <option key={id} value={id} lang={id}>
+            {name}
+          </option>
+        ))}
+      </select>
+    </label>
   );
 }

@@ -1,5 +1,6 @@
 // Names that a language model suggests for the parts, as a list to correct: each line shows its part while it is pointed
 // at. What is accepted labels all parts in one step.
+
 import { useId } from 'preact/hooks';
 import { costOf, isDemo } from '../llm/settings';
 import { models } from '../session/core';
@@ -8,9 +9,11 @@ import { names } from '../session/name_suggestions';
 import type { NameRow, Naming } from '../session/naming';
 import { suggestFront } from '../session/placing';
 import { document, pointedAt, task } from '../session/session';
+import { plural, price, t } from '../texts/texts';
 import { AskFailure } from './AskFailure';
 import { Icon } from './Icon';
 import { paintNumbered } from './pictures';
+import { sideName } from './words';
 
 export function NamesCard() {
   const naming = names.naming.value;
@@ -20,17 +23,23 @@ export function NamesCard() {
         type="button"
         class="button wide quiet"
         disabled={models.value === null || task.value !== null}
-        title="A language model says what this is and what its parts are called, from their sizes and places alone"
+        title={t`A language model says what this is and what its parts are called, from their sizes and places alone`}
         onClick={() => void names.start(paintNumbered)}
       >
-        Suggest names for the parts
+        {t`Suggest names for the parts`}
       </button>
     );
   return (
-    <section class="names-card" aria-label="Suggested names">
+    <section class="names-card" aria-label={t`Suggested names`}>
       <header class="row">
-        <h3 class="grow">{naming.category === '' ? 'Suggested names' : `Looks like: ${naming.category}`}</h3>
-        <button type="button" class="button icon-only" aria-label="Drop the names" title="Drop" onClick={names.close}>
+        <h3 class="grow">{naming.category === '' ? t`Suggested names` : t`Looks like: ${naming.category}`}</h3>
+        <button
+          type="button"
+          class="button icon-only"
+          aria-label={t`Drop the names`}
+          title={t`Drop`}
+          onClick={names.close}
+        >
           <Icon name="close" />
         </button>
       </header>
@@ -46,9 +55,11 @@ function Waiting({ naming }: { naming: Naming }) {
   return (
     <div class="row progress" role="status">
       <span class="spinner" aria-hidden="true" />
-      <p class="grow quiet">Asking what the parts are{of > 1 ? `, ${done} of ${of} answers` : ''}</p>
+      <p class="grow quiet">
+        {of > 1 ? t`Asking what the parts are, ${done} of ${of} answers` : t`Asking what the parts are`}
+      </p>
       <button type="button" class="button outlined" onClick={names.close}>
-        Cancel
+        {t`Cancel`}
       </button>
     </div>
   );
@@ -78,7 +89,7 @@ function Names({ naming }: { naming: Naming }) {
         ))}
       </ul>
       <button type="submit" class="button primary" disabled={task.value !== null || labels.length === 0}>
-        <Icon name="check" /> Use these names
+        <Icon name="check" /> {t`Use these names`}
       </button>
     </form>
   );
@@ -103,34 +114,35 @@ function Row({ naming, row, list }: { naming: Naming; row: NameRow; list: string
         maxLength={64}
         list={list}
         autocomplete="off"
-        aria-label={`Name of ${now}`}
-        placeholder="keeps its name"
+        aria-label={t`Name of ${now}`}
+        placeholder={t`keeps its name`}
         value={row.label}
         onFocus={show}
         onBlur={hide}
         onInput={(event) => names.rename(row.part, event.currentTarget.value)}
       />
       {isSplit && (
-        <span class={2 * (row.votes ?? 0) <= naming.of ? 'unsure' : 'quiet'} title="Answers that say so">
-          {row.votes} of {naming.of}
+        <span class={2 * (row.votes ?? 0) <= naming.of ? 'unsure' : 'quiet'} title={t`Answers that say so`}>
+          {t`${row.votes} of ${naming.of}`}
         </span>
       )}
     </li>
   );
 }
 
-const sides = { '+z': 'its front', '-z': 'its back', '+x': 'its left', '-x': 'its right', '': '' } as const;
+const sides = { '+z': 'front', '-z': 'back', '+x': 'left', '-x': 'right', '': 'front' } as const;
 
 function aboutWords({ front, of, spent }: Naming): string {
-  const faces = front === '' || front === '+z' ? '' : `It seems to face what is taken for ${sides[front]}.`;
-  const answers = isDemo.value ? 'Recorded answers.' : answersWords(of, spent);
-  return [faces, 'Parts of one name are compared for symmetry; correct what is wrong.', answers]
+  const faces =
+    front === '' || front === '+z' ? '' : t`It seems to face what is taken for its ${sideName(sides[front])}.`;
+  const answers = isDemo.value ? t`Recorded answers.` : answersWords(of, spent);
+  return [faces, t`Parts of one name are compared for symmetry; correct what is wrong.`, answers]
     .filter(Boolean)
     .join(' ');
 }
 
 function answersWords(of: number, { calls, tokens }: Naming['spent']): string {
   const cost = costOf(tokens);
-  const price = calls > 0 && cost !== null ? `, cost ${cost.toFixed(cost < 0.1 ? 4 : 2)}` : '';
-  return `${of} ${of === 1 ? 'answer' : 'answers'}${price}.`;
+  const answers = plural(of, '{n} answer', '{n} answers');
+  return calls > 0 && cost !== null ? t`${answers}, cost ${price(cost)}.` : `${answers}.`;
 }

@@ -1,4 +1,5 @@
 // Sliders that the model offers by itself, each to be tried on the spot, kept, or dropped.
+
 import { useComputed, useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { models } from '../session/core';
@@ -9,6 +10,7 @@ import type { Offer } from '../session/offers';
 import { drop, keepOffer, look, offers } from '../session/page_offers';
 import { readLayer } from '../session/reading';
 import { document, draft, newEntry, slide, sliderValue, step } from '../session/session';
+import { number, t } from '../texts/texts';
 import { Icon } from './Icon';
 
 export function OffersPanel() {
@@ -19,7 +21,7 @@ export function OffersPanel() {
   if (mine === null) {
     return (
       <button type="button" class="button wide" onClick={() => void look(model)}>
-        Find sliders for this model
+        {t`Find sliders for this model`}
       </button>
     );
   }
@@ -27,12 +29,12 @@ export function OffersPanel() {
     for (const offer of mine.list) keepOffer(offer, 0);
   };
   return (
-    <section class="offers-panel" aria-label="Sliders this model offers">
+    <section class="offers-panel" aria-label={t`Sliders this model offers`}>
       <header>
-        <h3>{mine.list.length > 0 ? 'This model offers' : ''}</h3>
+        <h3>{mine.list.length > 0 ? t`This model offers` : ''}</h3>
         {mine.kind === 'done' && mine.list.length > 1 && (
           <button type="button" class="button" onClick={keepAll}>
-            Keep all
+            {t`Keep all`}
           </button>
         )}
       </header>
@@ -44,10 +46,10 @@ export function OffersPanel() {
       <p class="quiet" role="status">
         {mine.kind === 'looking' ? (
           <>
-            <span class="spinner" aria-hidden="true" /> Looking for sliders that keep everything together…
+            <span class="spinner" aria-hidden="true" /> {t`Looking for sliders that keep everything together…`}
           </>
         ) : mine.list.length === 0 ? (
-          'No more sliders are offered. Say what to change, or pull a part.'
+          t`No more sliders are offered. Say what to change, or pull a part.`
         ) : null}
       </p>
     </section>
@@ -75,8 +77,8 @@ function OfferCard({ offer }: { offer: Offer }) {
       <button
         type="button"
         class="button icon-only"
-        aria-label={`Keep ${offer.title}`}
-        title="Keep"
+        aria-label={t`Keep ${offer.title}`}
+        title={t`Keep`}
         onClick={() => keepOffer(offer, value)}
       >
         <Icon name="check" />
@@ -84,8 +86,8 @@ function OfferCard({ offer }: { offer: Offer }) {
       <button
         type="button"
         class="button icon-only"
-        aria-label={`Drop ${offer.title}`}
-        title="Drop"
+        aria-label={t`Drop ${offer.title}`}
+        title={t`Drop`}
         onClick={() => drop(offer)}
       >
         <Icon name="close" />
@@ -96,8 +98,8 @@ function OfferCard({ offer }: { offer: Offer }) {
         max={max}
         step="any"
         value={value}
-        aria-label={`Try ${offer.title}`}
-        aria-valuetext={reading.value || value.toFixed(2)}
+        aria-label={t`Try ${offer.title}`}
+        aria-valuetext={reading.value || number(value, 2, 2)}
         onInput={(event) => {
           const to = event.currentTarget.valueAsNumber;
           if (!isTried) {

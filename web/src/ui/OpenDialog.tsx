@@ -1,10 +1,12 @@
 // Opening a model: the gallery with thumbnails, files, a folder, an address.
+
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { models } from '../session/core';
 import { type GalleryEntry, loadGallery, loadNameless, loadPrograms } from '../session/gallery';
 import { modelHosts } from '../session/model_hosts';
 import { openGallery, openUrl } from '../session/open';
+import { t } from '../texts/texts';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
 import { DropZone, GoodModel } from './DropZone';
@@ -32,7 +34,7 @@ export function OpenDialog() {
   }, [gallery, programs, nameless]);
 
   return (
-    <Dialog title="Open a model" class="open" onClose={close}>
+    <Dialog title={t`Open a model`} class="open" onClose={close}>
       <DropZone onPicked={close} />
       <GoodModel />
       <form
@@ -48,20 +50,20 @@ export function OpenDialog() {
           class="grow"
           type="text"
           inputMode="url"
-          placeholder={`Address of a model: ${[...modelHosts, 'this site', 'this machine'].join(', ')}`}
-          aria-label="Address of a model"
+          placeholder={t`Address of a model: ${[...modelHosts, t`this site`, t`this machine`].join(', ')}`}
+          aria-label={t`Address of a model`}
           value={address.value}
           onInput={(event) => {
             address.value = event.currentTarget.value;
           }}
         />
         <button type="submit" class="button" disabled={!ready}>
-          Open
+          {t`Open`}
         </button>
       </form>
-      <Gallery title="Gallery" entries={gallery.value} ready={ready} />
-      <Gallery title="OpenSCAD programs, each with its kinds" entries={programs.value} ready={ready} />
-      <Gallery title="Models without names, as most are" entries={nameless.value} ready={ready} />
+      <Gallery title={t`Gallery`} entries={gallery.value} ready={ready} />
+      <Gallery title={t`OpenSCAD programs, each with its kinds`} entries={programs.value} ready={ready} />
+      <Gallery title={t`Models without names, as most are`} entries={nameless.value} ready={ready} />
     </Dialog>
   );
 }

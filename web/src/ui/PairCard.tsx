@@ -1,10 +1,12 @@
 // What two selected parts are to each other, to be put right: their joint, and whether they are mirror images. And what
 // was put right so far.
+
 import type { Shape, ShapePart } from '../program/types';
 import { models } from '../session/core';
 import { correct, type Pair, pairOf, uncorrect } from '../session/corrections';
 import { type Correction, nameOf, noCorrections, partKey } from '../session/document';
 import { document, selectAll, selected, task } from '../session/session';
+import { m, type Sentence, t } from '../texts/texts';
 import { Icon } from './Icon';
 import { jointWords } from './words';
 
@@ -12,7 +14,7 @@ export function PairCard({ shape }: { shape: Shape }) {
   const pair = pairOf(shape, selected.value, document.value.model?.corrections);
   if (pair === null) return null;
   return (
-    <section class="pair" aria-label="Joint">
+    <section class="pair" aria-label={t`Joint`}>
       <p>{pairWords(pair)}</p>
       <div class="chips">
         {changesOf(pair).map(({ kind, label, title }) => (
@@ -20,7 +22,7 @@ export function PairCard({ shape }: { shape: Shape }) {
             type="button"
             class="chip-button"
             key={kind}
-            title={`${title} Their mirror images, and others in their rows, follow.`}
+            title={t`${title} Their mirror images, and others in their rows, follow.`}
             disabled={models.value === null || task.value !== null}
             onClick={() => void declare(pair, kind)}
           >
@@ -51,8 +53,8 @@ function keyOf(parts: readonly ShapePart[], id: string): string {
 }
 
 function pairWords({ joint, mirror, said }: Pair): string {
-  const held = joint === null ? 'Not joined' : said === 'loose' ? 'Joined loosely' : `Joined ${jointWords(joint)}`;
-  return mirror === null ? `${held}.` : `${held}; mirror images.`;
+  const held = joint === null ? t`Not joined` : said === 'loose' ? t`Joined loosely` : t`Joined ${jointWords(joint)}`;
+  return mirror === null ? `${held}.` : t`${held}; mirror images.`;
 }
 
 interface Change {
@@ -62,34 +64,34 @@ interface Change {
 }
 
 function changesOf({ joint, mirror, said }: Pair): readonly Change[] {
-  const add: Change = { kind: 'joined', label: 'Add a joint', title: 'They stay together where they are nearest.' };
+  const add: Change = { kind: 'joined', label: t`Add a joint`, title: t`They stay together where they are nearest.` };
   const loosen: Change = {
     kind: 'loose',
-    label: 'Loosen the joint',
-    title: 'Holds them at the middle of where they touch alone: there they may turn and grow.',
+    label: t`Loosen the joint`,
+    title: t`Holds them at the middle of where they touch alone: there they may turn and grow.`,
   };
-  const firm: Change = { kind: 'joined', label: 'Hold the joint firmly', title: 'As it was found.' };
+  const firm: Change = { kind: 'joined', label: t`Hold the joint firmly`, title: t`As it was found.` };
   const remove: Change = {
     kind: 'apart',
-    label: 'Remove the joint',
-    title: 'They no longer follow each other for it.',
+    label: t`Remove the joint`,
+    title: t`They no longer follow each other for it.`,
   };
   const joints =
     joint === null ? [add] : said === 'loose' ? [firm, remove] : joint.kind === 'point' ? [remove] : [loosen, remove];
   return [
     ...joints,
     mirror === null
-      ? { kind: 'mirrored', label: 'Add a mirror image', title: 'What becomes of the one becomes of the other.' }
-      : { kind: 'unmirrored', label: 'Remove the mirror image', title: 'Each may change on its own.' },
+      ? { kind: 'mirrored', label: t`Add a mirror image`, title: t`What becomes of the one becomes of the other.` }
+      : { kind: 'unmirrored', label: t`Remove the mirror image`, title: t`Each may change on its own.` },
   ];
 }
 
-const saidWords: Readonly<Record<Correction['kind'], string>> = {
-  joined: 'joined',
-  loose: 'joined loosely',
-  apart: 'not joined',
-  mirrored: 'mirror images',
-  unmirrored: 'no mirror images',
+const saidWords: Readonly<Record<Correction['kind'], Sentence>> = {
+  joined: m`joined`,
+  loose: m`joined loosely`,
+  apart: m`not joined`,
+  mirrored: m`mirror images`,
+  unmirrored: m`no mirror images`,
 };
 
 /** What was put right by hand, with a way back. */
@@ -103,23 +105,23 @@ export function CorrectionList() {
     if (models.value !== null) void uncorrect(models.value, gone);
   };
   return (
-    <section class="relations put-right" aria-label="Put right by hand">
-      <h3>Put right by hand</h3>
+    <section class="relations put-right" aria-label={t`Put right by hand`}>
+      <h3>{t`Put right by hand`}</h3>
       <ul>
         {corrections.map((correction) => {
           const ids = correction.parts.map((key) => idOf.get(key) ?? key);
           const [a, b] = ids.map((id) => nameOf(document.value, id));
-          const text = `${a} and ${b}: ${saidWords[correction.kind]}`;
+          const text = t`${a ?? ''} and ${b ?? ''}: ${t(saidWords[correction.kind])}`;
           return (
             <li key={text}>
-              <button type="button" class="line" title="Selects the two" onClick={() => selectAll(ids)}>
+              <button type="button" class="line" title={t`Selects the two`} onClick={() => selectAll(ids)}>
                 {text}
               </button>
               <button
                 type="button"
                 class="button icon-only"
-                aria-label={`Take back: ${text}`}
-                title="As it was found"
+                aria-label={t`Take back: ${text}`}
+                title={t`As it was found`}
                 disabled={isOff}
                 onClick={() => back(correction)}
               >
@@ -131,7 +133,7 @@ export function CorrectionList() {
       </ul>
       {corrections.length > 1 && (
         <button type="button" class="chip-button" disabled={isOff} onClick={() => back(null)}>
-          All as found
+          {t`All as found`}
         </button>
       )}
     </section>

@@ -1,5 +1,6 @@
 // The list of parts: found by name, selected one or several at a time, folded, hidden and renamed. It is one stop of the
 // Tab key: arrows walk it. Of a long list only what is in sight is drawn.
+
 import { type Signal, useSignal } from '@preact/signals';
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import type { ShapePart } from '../program/types';
@@ -14,6 +15,7 @@ import {
   selection,
   setHidden,
 } from '../session/session';
+import { t } from '../texts/texts';
 import { Icon } from './Icon';
 import { type PartRow, partRows, rowsInSight } from './part_rows';
 import { several } from './view';
@@ -93,8 +95,8 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
         {isLong && (
           <input
             type="search"
-            placeholder={`Find among ${parts.filter(({ virtual }) => !virtual).length} parts`}
-            aria-label="Find a part"
+            placeholder={t`Find among ${parts.filter(({ virtual }) => !virtual).length} parts`}
+            aria-label={t`Find a part`}
             value={query.value}
             onInput={(event) => {
               query.value = event.currentTarget.value;
@@ -111,14 +113,14 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
           type="button"
           class={`button severally ${isLong ? 'icon-only' : 'quiet'}`}
           aria-pressed={several.value}
-          aria-label="Select several"
-          title="Select several: clicks add to the selection (Shift+click does so at any time; Shift+drag draws a box)"
+          aria-label={t`Select several`}
+          title={t`Select several: clicks add to the selection (Shift+click does so at any time; Shift+drag draws a box)`}
           onClick={() => {
             several.value = !several.value;
           }}
         >
           <Icon name="several" />
-          {!isLong && 'Select several'}
+          {!isLong && t`Select several`}
         </button>
       </div>
       <ul
@@ -146,7 +148,7 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
         ))}
         {end < rows.length && <li aria-hidden="true" style={{ height: `${(rows.length - end) * rowHeight}px` }} />}
       </ul>
-      {rows.length === 0 && <p class="quiet empty">No part is called so.</p>}
+      {rows.length === 0 && <p class="quiet empty">{t`No part is called so.`}</p>}
     </>
   );
 }
@@ -201,7 +203,7 @@ function Row({ row: { part, inner, open }, name, isActive, position, onFold, onS
           class="twist"
           tabIndex={tabIndex}
           aria-expanded={open}
-          aria-label={`${name}: ${open ? 'fold' : 'unfold'}`}
+          aria-label={open ? t`${name}: fold` : t`${name}: unfold`}
           onClick={() => onFold(!open)}
         >
           <Icon name={open ? 'down' : 'right'} />
@@ -215,7 +217,7 @@ function Row({ row: { part, inner, open }, name, isActive, position, onFold, onS
           class="name"
           tabIndex={tabIndex}
           aria-pressed={isSelected}
-          title={`${name} (double-click or F2 renames)`}
+          title={t`${name} (double-click or F2 renames)`}
           onClick={onSelect}
           onDblClick={() => {
             renaming.value = true;
@@ -238,8 +240,8 @@ function Row({ row: { part, inner, open }, name, isActive, position, onFold, onS
         type="button"
         class="eye"
         tabIndex={tabIndex}
-        aria-label={`${isHidden ? 'Show' : 'Hide'} ${name}`}
-        title={isHidden ? 'Show' : 'Hide (H)'}
+        aria-label={isHidden ? t`Show ${name}` : t`Hide ${name}`}
+        title={isHidden ? t`Show` : t`Hide (H)`}
         onClick={() => setHidden(ids, !isHidden)}
       >
         <Icon name={isHidden ? 'eyeOff' : 'eye'} />
@@ -254,7 +256,7 @@ function Rename({ part, name, renaming }: { part: ShapePart; name: string; renam
       class="rename"
       value={name}
       maxLength={80}
-      aria-label={`New name of ${name}`}
+      aria-label={t`New name of ${name}`}
       ref={(element) => element?.focus()}
       onBlur={(event) => {
         renaming.value = false;

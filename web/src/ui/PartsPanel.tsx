@@ -1,10 +1,12 @@
 // The outliner: the parts, what can be done with those that are selected, and what holds the selected one.
+
 import { useSignal } from '@preact/signals';
 import { isGroup, type ShapePart } from '../program/types';
 import { models } from '../session/core';
 import { nameOf, partKey } from '../session/document';
 import { relabel } from '../session/open';
 import { document, pointedAt, select, selectAll, selected, selection, showAll } from '../session/session';
+import { t } from '../texts/texts';
 import { Found } from './Found';
 import { NamesCard } from './NamesCard';
 import { CorrectionList, PairCard } from './PairCard';
@@ -18,14 +20,14 @@ import { relationWords } from './words';
 /** @param onEdit begins an edit by hand of what is selected */
 export function PartsPanel({ onEdit }: { onEdit: () => void }) {
   const { model, hidden } = document.value;
-  if (model === null) return <p class="quiet empty">The parts of the model are listed here.</p>;
+  if (model === null) return <p class="quiet empty">{t`The parts of the model are listed here.`}</p>;
   return (
     <>
       <Found shape={model.shape} />
       <PartsList parts={model.shape.parts} />
       {hidden.size > 0 && (
         <button type="button" class="button wide" onClick={showAll}>
-          {hidden.size === 1 ? 'Show the hidden one' : `Show all ${hidden.size} hidden`}
+          {hidden.size === 1 ? t`Show the hidden one` : t`Show all ${hidden.size} hidden`}
         </button>
       )}
       <SplitCard />
@@ -79,8 +81,8 @@ function Label({ part }: { part: ShapePart }) {
         void give((typed.value ?? first.label).trim());
       }}
     >
-      <label for="part-label" title="Parts with one label may mirror each other or stand in a row">
-        Label
+      <label for="part-label" title={t`Parts with one label may mirror each other or stand in a row`}>
+        {t`Label`}
       </label>
       <input
         id="part-label"
@@ -104,18 +106,18 @@ function Label({ part }: { part: ShapePart }) {
       </datalist>
       {typed.value !== null && typed.value.trim() !== first.label ? (
         <button type="submit" class="button" disabled={!models.value || typed.value.trim() === ''}>
-          Set
+          {t`Set`}
         </button>
       ) : (
         isChanged && (
-          <button type="button" class="button" title="The label of the file" onClick={() => void give(null)}>
-            Reset
+          <button type="button" class="button" title={t`The label of the file`} onClick={() => void give(null)}>
+            {t`Reset`}
           </button>
         )
       )}
       {typed.value !== null && (
         <p id="part-label-help" class="quiet">
-          Parts with one label may mirror each other or stand in a row.
+          {t`Parts with one label may mirror each other or stand in a row.`}
         </p>
       )}
     </form>
@@ -127,8 +129,8 @@ function Why({ id }: { id: string }) {
   const layers = whyPart(document.value, id);
   if (layers.length === 0) return null;
   return (
-    <section class="relations" aria-label="Why it moves">
-      <h3>Why it moves, or stays</h3>
+    <section class="relations" aria-label={t`Why it moves`}>
+      <h3>{t`Why it moves, or stays`}</h3>
       <ul class="whys">
         {layers.map(({ layer, text, search }, i) => (
           <li key={i}>
@@ -140,7 +142,7 @@ function Why({ id }: { id: string }) {
             ))}
             {search && (
               <details>
-                <summary>How it was found</summary>
+                <summary>{t`How it was found`}</summary>
                 <p class="quiet">{search}</p>
               </details>
             )}
@@ -162,10 +164,10 @@ function Relations({ id }: { id: string }) {
     (relation) => relation.parts.includes(id) || (isGroup(relation) && relation.parent === id),
   );
   return (
-    <section class="relations" aria-label="Relations of the selected part">
-      <h3>What holds {nameOf(document.value, id)}</h3>
+    <section class="relations" aria-label={t`Relations of the selected part`}>
+      <h3>{t`What holds ${nameOf(document.value, id)}`}</h3>
       {relations.length === 0 && (
-        <p class="quiet">Nothing: it stands alone. Select another part as well (Shift+click) to join the two.</p>
+        <p class="quiet">{t`Nothing: it stands alone. Select another part as well (Shift+click) to join the two.`}</p>
       )}
       <ul>
         {relations.map((relation) => {
@@ -182,7 +184,7 @@ function Relations({ id }: { id: string }) {
               <button
                 type="button"
                 class="line"
-                title={isPair ? 'Selects both, to change what holds them' : undefined}
+                title={isPair ? t`Selects both, to change what holds them` : undefined}
                 onClick={isPair ? () => selectAll([id, other]) : undefined}
                 onPointerEnter={show}
                 onPointerLeave={hide}

@@ -1,4 +1,5 @@
 // How the model stands and how large it is: offered where the file seems to say it otherwise, and to be changed.
+
 import { type Direction, turnedRound, turnedTo, turnedUp } from '../carve/placing';
 import { whyUncarvable } from '../session/carving';
 import { models } from '../session/core';
@@ -15,25 +16,26 @@ import {
   seemsUp,
 } from '../session/placing';
 import { document, task } from '../session/session';
+import { m, type Sentence, t } from '../texts/texts';
 import { Icon } from './Icon';
+import { sideName } from './words';
 
-const sideWords: Readonly<Record<Direction, string>> = {
-  '+x': 'It seems to lie on its right side.',
-  '-x': 'It seems to lie on its left side.',
-  '+y': '',
-  '-y': 'It seems to stand on its head.',
-  '+z': 'It seems to lie on its back.',
-  '-z': 'It seems to lie on its front.',
+const lying: Readonly<Record<Exclude<Direction, '+y'>, Sentence>> = {
+  '+x': m`It seems to lie on its right side.`,
+  '-x': m`It seems to lie on its left side.`,
+  '-y': m`It seems to stand on its head.`,
+  '+z': m`It seems to lie on its back.`,
+  '-z': m`It seems to lie on its front.`,
 };
 
-const facing: Readonly<Record<Direction, string>> = {
+const facing = {
   '+x': 'left',
   '-x': 'right',
   '+y': 'top',
   '-y': 'bottom',
   '+z': 'front',
   '-z': 'back',
-};
+} as const;
 
 /** In the middle of the page, where the model is: the offer. */
 export function PlaceOffer() {
@@ -50,38 +52,40 @@ export function PlaceOffer() {
   const longest = Math.max(...extentOf(model.shape));
   const length = (value: number) => formatMeasure('height', value, value, unit);
   return (
-    <section class="panel note tour-offer" aria-label="How it stands">
+    <section class="panel note tour-offer" aria-label={t`How it stands`}>
       {up !== null ? (
         <>
-          <span>{sideWords[up]}</span>
+          <span>{up !== '+y' && t(lying[up])}</span>
           <button type="button" class="button" onClick={() => void place(core, turnedUp(now, up))}>
-            Stand it up
+            {t`Stand it up`}
           </button>
         </>
       ) : (
         metres !== null && (
           <>
             <span>
-              This model is {length(height)} high{longest > 2 * height ? ` and ${length(longest)} long` : ''}.
+              {longest > 2 * height
+                ? t`This model is ${length(height)} high and ${length(longest)} long.`
+                : t`This model is ${length(height)} high.`}
             </span>
             <button type="button" class="button" onClick={() => void place(core, { ...now, metres })}>
-              Make it {length(height * metres)} high
+              {t`Make it ${length(height * metres)} high`}
             </button>
           </>
         )
       )}
       {up === null && metres === null && (
         <>
-          <span>Its front seems to be what is its {facing[front]} here.</span>
+          <span>{t`Its front seems to be what is its ${sideName(facing[front])} here.`}</span>
           <button type="button" class="button" onClick={() => void place(core, turnedTo(now, front))}>
-            Turn it round
+            {t`Turn it round`}
           </button>
         </>
       )}
       <button
         type="button"
         class="button icon-only"
-        aria-label="Leave it as it is"
+        aria-label={t`Leave it as it is`}
         onClick={() => decline(model.files)}
       >
         <Icon name="close" />
@@ -101,19 +105,18 @@ export function PlaceCard() {
   const { lengths, unit: shown } = formatLengths(extentOf(model.shape), unit);
   const units = fileUnits.some(({ metres }) => metres === now.metres)
     ? fileUnits
-    : [...fileUnits, { metres: now.metres, label: `${now.metres.toLocaleString('en')} metres` }];
+    : [...fileUnits, { metres: now.metres, label: m`{0} metres` }];
   return (
     <details class="place-card">
-      <summary>How it stands, and how large it is</summary>
+      <summary>{t`How it stands, and how large it is`}</summary>
       <p class="quiet">
-        {lengths.join(' × ')} {shown}, width, height and depth. What is shown and said follows; the file is exported as
-        it was, unless you choose otherwise.
+        {t`${lengths.join(' × ')} ${shown}, width, height and depth. What is shown and said follows; the file is exported as it was, unless you choose otherwise.`}
       </p>
       <div class="chips">
         {(
           [
-            ['+z', 'Tip it backwards'],
-            ['+x', 'Tip it to its right'],
+            ['+z', t`Tip it backwards`],
+            ['+x', t`Tip it to its right`],
           ] as const
         ).map(([up, label]) => (
           <button
@@ -121,7 +124,7 @@ export function PlaceCard() {
             type="button"
             class="chip-button"
             disabled={isOff}
-            title={why ?? 'By a quarter'}
+            title={why ?? t`By a quarter`}
             onClick={() => void place(core, turnedUp(now, up))}
           >
             {label}
@@ -131,14 +134,14 @@ export function PlaceCard() {
           type="button"
           class="chip-button"
           disabled={isOff}
-          title={why ?? 'By a quarter: what is its right becomes its front'}
+          title={why ?? t`By a quarter: what is its right becomes its front`}
           onClick={() => void place(core, turnedRound(now))}
         >
-          Turn it round
+          {t`Turn it round`}
         </button>
       </div>
       <label>
-        <span class="quiet">A unit of the file is one of</span>{' '}
+        <span class="quiet">{t`A unit of the file is one of`}</span>{' '}
         <select
           value={String(now.metres)}
           disabled={isOff}
@@ -147,7 +150,7 @@ export function PlaceCard() {
         >
           {units.map(({ metres, label }) => (
             <option key={metres} value={String(metres)}>
-              {label}
+              {t(label, metres)}
             </option>
           ))}
         </select>

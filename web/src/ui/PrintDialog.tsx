@@ -1,10 +1,12 @@
 // The edited model as one solid for a 3D printer: how large it is and becomes, and what of it is no solid.
+
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { editedName } from '../session/download_names';
 import { gapSentences } from '../session/gaps';
 import { document, notice, run, selected, task } from '../session/session';
 import { unitedParts, writtenSolid } from '../session/solid';
+import { number, t } from '../texts/texts';
 import { dialog, download, editedFile, modelName } from './actions';
 import { Dialog } from './Dialog';
 
@@ -20,7 +22,7 @@ interface How {
 async function make({ chosen, closeGaps, leaveOut }: How) {
   const { model, unit } = document.peek();
   if (model === null) return null;
-  return run('Making one solid', async (options) => {
+  return run(t`Making one solid`, async (options) => {
     const file = await editedFile(chosen ? 'selected' : 'all', closeGaps, options);
     options.signal.throwIfAborted();
     if (file === null) return null;
@@ -53,17 +55,16 @@ export function PrintDialog() {
   const save = async (format: 'stl' | '3mf') => {
     if (solid === null) return;
     const name = editedName(modelName());
-    const bytes = await run('Writing the file', (options) =>
+    const bytes = await run(t`Writing the file`, (options) =>
       writtenSolid(solid, { format, scale, name: modelName() }, options),
     );
     if (bytes !== null) download(`${name}.${format}`, new Blob([bytes], { type: `model/${format}` }));
   };
   const fault = notice.value?.kind === 'error' ? notice.value.text : '';
   return (
-    <Dialog title="For printing" class="print" onClose={close}>
+    <Dialog title={t`For printing`} class="print" onClose={close}>
       <p class="quiet">
-        The model as it is edited, all parts as one watertight solid, in millimetres. Inner walls where parts overlap
-        are gone.
+        {t`The model as it is edited, all parts as one watertight solid, in millimetres. Inner walls where parts overlap are gone.`}
       </p>
       {selected.value.length > 0 && (
         <label class="check">
@@ -72,7 +73,7 @@ export function PrintDialog() {
             checked={how.value.chosen}
             onChange={(event) => void start({ chosen: event.currentTarget.checked })}
           />
-          <span>{selected.value.length === 1 ? 'The selected part only' : 'The selected parts only'}</span>
+          <span>{selected.value.length === 1 ? t`The selected part only` : t`The selected parts only`}</span>
         </label>
       )}
       {hasEdits && (
@@ -82,33 +83,33 @@ export function PrintDialog() {
             checked={how.value.closeGaps}
             onChange={(event) => void start({ closeGaps: event.currentTarget.checked })}
           />
-          <span>Close gaps: parts that the edits have pulled apart grow until they meet</span>
+          <span>{t`Close gaps: parts that the edits have pulled apart grow until they meet`}</span>
         </label>
       )}
       {made.value !== null && made.value.gaps !== '' && <p class="quiet">{made.value.gaps}</p>}
       <Faults faults={faults} turned={made.value?.turned ?? []} leftOut={solid !== null} />
       {solid === null && faults.length > 0 && (
         <button type="button" class="button" onClick={() => void start({ leaveOut: true })}>
-          Leave {faults.length === 1 ? 'it' : 'them'} out
+          {faults.length === 1 ? t`Leave it out` : t`Leave them out`}
         </button>
       )}
       {solid !== null && (
         <>
           <dl class="facts">
-            <dt>Size</dt>
+            <dt>{t`Size`}</dt>
             <dd>{size.map((x) => millimetres(x * scale)).join(' × ')} mm</dd>
-            <dt>Volume</dt>
+            <dt>{t`Volume`}</dt>
             <dd>{volume(solid.volume * scale ** 3)}</dd>
-            <dt>Triangles</dt>
-            <dd>{(solid.triangles.length / 3).toLocaleString('en')}</dd>
+            <dt>{t`Triangles`}</dt>
+            <dd>{number(solid.triangles.length / 3)}</dd>
           </dl>
           {solid.pieces > 1 && (
             <p class="quiet">
-              It is in {solid.pieces} pieces: nothing joins them. What should touch may stand a hair apart.
+              {t`It is in ${solid.pieces} pieces: nothing joins them. What should touch may stand a hair apart.`}
             </p>
           )}
           <label class="field">
-            <span>Longest side</span>
+            <span>{t`Longest side`}</span>
             <input
               type="number"
               min={0.1}
@@ -119,7 +120,7 @@ export function PrintDialog() {
                 longest.value = length > 0 ? length : null;
               }}
             />
-            <span class="quiet">mm, {ratio(scale)}</span>
+            <span class="quiet">{`mm, ${ratio(scale)}`}</span>
           </label>
         </>
       )}
@@ -135,12 +136,12 @@ export function PrintDialog() {
             disabled={solid === null || task.value !== null}
             onClick={() => void save(format)}
           >
-            Save {format.toUpperCase()}
+            {t`Save ${format.toUpperCase()}`}
           </button>
         ))}
         {task.value !== null && (
           <button type="button" class="button" onClick={() => task.peek()?.cancel()}>
-            Cancel
+            {t`Cancel`}
           </button>
         )}
       </div>
@@ -158,7 +159,7 @@ function Faults({ faults, turned, leftOut }: Pick<Made, 'faults' | 'turned'> & {
       {faults.length > 0 && (
         <div class={leftOut ? 'quiet' : 'broken'}>
           <p>
-            {leftOut ? 'Left out, because they bound no solid:' : 'Nothing was made, because these bound no solid:'}
+            {leftOut ? t`Left out, because they bound no solid:` : t`Nothing was made, because these bound no solid:`}
           </p>
           <ul class="pitfalls">
             {faults.slice(0, mostNamed).map(({ name, text }, i) => (
@@ -166,20 +167,20 @@ function Faults({ faults, turned, leftOut }: Pick<Made, 'faults' | 'turned'> & {
                 {name} {text}.
               </li>
             ))}
-            {more > 0 && <li>And {more} more.</li>}
+            {more > 0 && <li>{t`And ${more} more.`}</li>}
           </ul>
         </div>
       )}
-      {turned.length > 0 && <p class="quiet">Turned right side out: {[...new Set(turned)].join(', ')}.</p>}
+      {turned.length > 0 && <p class="quiet">{t`Turned right side out: ${[...new Set(turned)].join(', ')}.`}</p>}
     </>
   );
 }
 
-const millimetres = (x: number) => (x >= 100 ? x.toFixed(0) : x.toFixed(1));
+const millimetres = (x: number) => (x >= 100 ? number(x, 0, 0) : number(x, 1, 1));
 const volume = (cubic: number) =>
   cubic >= 1000
-    ? `${Number((cubic / 1000).toPrecision(4)).toLocaleString('en')} cm³`
-    : `${Number(cubic.toPrecision(3)).toLocaleString('en')} mm³`;
+    ? `${number(Number((cubic / 1000).toPrecision(4)))} cm³`
+    : `${number(Number(cubic.toPrecision(3)))} mm³`;
 /** "1 : 5", of what is made to the model. */
 const ratio = (scale: number) =>
   scale <= 1 ? `1 : ${Number((1 / scale).toPrecision(3))}` : `${Number(scale.toPrecision(3))} : 1`;

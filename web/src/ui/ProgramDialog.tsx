@@ -1,4 +1,5 @@
 // A layer, or a whole program from elsewhere, as text: to read, copy, change and take over.
+
 import { useComputed, useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import { parseJson } from '../program/json';
@@ -9,6 +10,7 @@ import { programOf, withFreshParameters } from '../session/document';
 import { titleOf } from '../session/layers';
 import { playOnce } from '../session/play';
 import { addProgram, document, entryOf, rewriteLayer } from '../session/session';
+import { plural, t } from '../texts/texts';
 import { dialog, textOf } from './actions';
 import { Dialog } from './Dialog';
 import { Icon } from './Icon';
@@ -42,7 +44,7 @@ export function ProgramDialog() {
     if (!ready || layer === undefined || !read.value?.ok) return;
     close();
     if (isNew) {
-      const keys = addProgram(read.value.value.program, 'add from text');
+      const keys = addProgram(read.value.value.program, t`add from text`);
       if (keys?.[0] !== undefined) playOnce(keys[0]);
     } else rewriteLayer(entry.key, ownName(layer, entry.layer, entry.key));
   };
@@ -62,17 +64,17 @@ export function ProgramDialog() {
   };
   const load = async (file: File | undefined) => {
     if (file === undefined) return;
-    wrong.value = file.size > largestFile ? `${file.name} is too large for a program.` : '';
+    wrong.value = file.size > largestFile ? t`${file.name} is too large for a program.` : '';
     if (wrong.value !== '') return;
     const content = await file.text();
     text.value = fromJson(content) ?? content;
   };
   return (
-    <Dialog title={isNew ? 'Add edits from text' : `${titleOf(entry.layer)}, as text`} class="text" onClose={close}>
+    <Dialog title={isNew ? t`Add edits from text` : t`${titleOf(entry.layer)}, as text`} class="text" onClose={close}>
       <p class="quiet">
         {isNew
-          ? 'Paste a program, or open its file (.txt or .json). Its edits are added behind those that are there.'
-          : 'One statement a line. Amounts are formulas of the slider, named after “layer”.'}
+          ? t`Paste a program, or open its file (.txt or .json). Its edits are added behind those that are there.`
+          : t`One statement a line. Amounts are formulas of the slider, named after “layer”.`}
       </p>
       <textarea
         ref={field}
@@ -81,7 +83,7 @@ export function ProgramDialog() {
         autocapitalize="off"
         rows={16}
         wrap="off"
-        aria-label="Program"
+        aria-label={t`Program`}
         aria-invalid={error !== null}
         aria-describedby="program-error"
         value={text.value}
@@ -94,42 +96,43 @@ export function ProgramDialog() {
         {wrong.value && <span class="error">{wrong.value}</span>}
         {error && (
           <button type="button" class="line error" onClick={() => goTo(error)}>
-            <Icon name="warning" /> Line {error.line}, column {error.column}: {error.cause}; {error.fix}.
+            <Icon name="warning" /> {t`Line ${error.line}, column ${error.column}: ${error.cause}; ${error.fix}.`}
           </button>
         )}
-        {tooMany && <span class="error">There should be one layer here. Add others by “Add from text”.</span>}
-        {layers.length > 0 && !tooMany && <span class="quiet">{countWords(layers)}, all of it fits this model.</span>}
+        {tooMany && <span class="error">{t`There should be one layer here. Add others by “Add from text”.`}</span>}
+        {layers.length > 0 && !tooMany && (
+          <span class="quiet">{t`${countWords(layers)}, all of it fits this model.`}</span>
+        )}
       </p>
       <div class="row end">
         {isNew ? (
           <label class="button file">
-            From a file…
+            {t`From a file…`}
             <input
               type="file"
               class="visually-hidden"
-              aria-label="Program from a file"
+              aria-label={t`Program from a file`}
               accept=".txt,.json,.parsel"
               onChange={(event) => void load(event.currentTarget.files?.[0])}
             />
           </label>
         ) : (
           <button type="button" class="button" onClick={copy}>
-            {copied.value ? 'Copied' : 'Copy'}
+            {copied.value ? t`Copied` : t`Copy`}
           </button>
         )}
         <button type="button" class="button primary" disabled={!ready} onClick={apply}>
-          {isNew ? 'Add' : 'Apply'}
+          {isNew ? t`Add` : t`Apply`}
         </button>
       </div>
     </Dialog>
   );
 }
 
-const plural = (count: number, word: string) => `${count} ${word}${count === 1 ? '' : 's'}`;
-
 function countWords(layers: readonly Layer[]): string {
   const statements = layers.reduce((sum, layer) => sum + layer.statements.length, 0);
-  return `${layers.length === 1 ? '' : `${layers.length} edits, `}${plural(statements, 'statement')}`;
+  const words = plural(statements, '{n} statement', '{n} statements');
+  return layers.length === 1 ? words : `${plural(layers.length, '{n} edit', '{n} edits')}, ${words}`;
 }
 
 /** What was found out about relations is no part of what one writes. */

@@ -1,5 +1,6 @@
 // What was understood of a request, in words, each line to be corrected: the reading, what other parts should do, which
 // relations give way.
+
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Answer } from '../llm/session';
@@ -17,6 +18,7 @@ import {
   requestText,
 } from '../session/requests';
 import { document, pointedAt, task } from '../session/session';
+import { plural, price, t } from '../texts/texts';
 import { dialog } from './actions';
 import { Hints } from './HandPanel';
 import { Icon } from './Icon';
@@ -35,7 +37,7 @@ export function ReadingCard({ state }: { state: Understood }) {
   const note = layer && effectWords(layer);
   const corrected = correctedWords(state);
   return (
-    <section class="reading" aria-label="What was understood">
+    <section class="reading" aria-label={t`What was understood`}>
       <header>
         <button
           type="button"
@@ -48,23 +50,20 @@ export function ReadingCard({ state }: { state: Understood }) {
           <Icon name={open.value ? 'down' : 'right'} />
           {layer !== null && chosen ? (
             <span>
-              <span class="quiet">{corrected === null ? 'Understood:' : 'Corrected:'}</span> {corrected ?? chosen.words}
+              <span class="quiet">{corrected === null ? t`Understood:` : t`Corrected:`}</span>{' '}
+              {corrected ?? chosen.words}
             </span>
           ) : (
             <span>
               {undecided ??
                 (task.value === null
-                  ? `“${state.request}” was understood, but is not applied`
-                  : `“${state.request}” is understood, and is being worked out`)}
+                  ? t`“${state.request}” was understood, but is not applied`
+                  : t`“${state.request}” is understood, and is being worked out`)}
             </span>
           )}
         </button>
-        {layer !== null && seed.of > 1 && chosen && (
-          <span class="quiet votes">
-            {chosen.votes} of {seed.of}
-          </span>
-        )}
-        <button type="button" class="button icon-only" aria-label="Close what was understood" onClick={dismiss}>
+        {layer !== null && seed.of > 1 && chosen && <span class="quiet votes">{t`${chosen.votes} of ${seed.of}`}</span>}
+        <button type="button" class="button icon-only" aria-label={t`Close what was understood`} onClick={dismiss}>
           <Icon name="close" />
         </button>
       </header>
@@ -99,7 +98,7 @@ function Plainly({ state }: { state: Understood }) {
         </div>
       )}
       <p class="plainly">
-        <span class="quiet grow">Read without a language model</span>
+        <span class="quiet grow">{t`Read without a language model`}</span>
         <button
           type="button"
           class="button"
@@ -109,7 +108,7 @@ function Plainly({ state }: { state: Understood }) {
             else void askAgain(state);
           }}
         >
-          Ask a language model instead
+          {t`Ask a language model instead`}
         </button>
       </p>
     </>
@@ -141,7 +140,7 @@ function Corrections({ state }: { state: Understood }) {
     <div class="corrections">
       {seed.readings.length > 0 && plainOffers(state).length === 0 && (
         <fieldset>
-          <legend>{seed.readings.length > 1 ? 'Readings' : 'Reading'}</legend>
+          <legend>{seed.readings.length > 1 ? t`Readings` : t`Reading`}</legend>
           {seed.readings.map(({ words, votes }, i) => (
             <label class="check" key={words}>
               <input
@@ -151,11 +150,7 @@ function Corrections({ state }: { state: Understood }) {
                 onChange={() => chooseReading(i)}
               />
               <span class="grow">{words}</span>
-              {state.plain === null && (
-                <span class="quiet votes">
-                  {votes} of {seed.of}
-                </span>
-              )}
+              {state.plain === null && <span class="quiet votes">{t`${votes} of ${seed.of}`}</span>}
             </label>
           ))}
         </fieldset>
@@ -183,12 +178,8 @@ function Corrections({ state }: { state: Understood }) {
                     correctEdit({ disabled: event.currentTarget.checked ? others : [...others, relation] });
                   }}
                 />
-                <span class="grow">Keep: {known ? relationWords(document.value, known) : words}</span>
-                {state.plain === null && (
-                  <span class="quiet votes">
-                    {votes} of {of}
-                  </span>
-                )}
+                <span class="grow">{t`Keep: ${known ? relationWords(document.value, known) : words}`}</span>
+                {state.plain === null && <span class="quiet votes">{t`${votes} of ${of}`}</span>}
               </label>
             );
           })}
@@ -202,18 +193,18 @@ function Corrections({ state }: { state: Understood }) {
             disabled={task.value !== null}
             onClick={() => void applyRequest()}
           >
-            Apply this
+            {t`Apply this`}
           </button>
         )}
         {!isDemo.value && state.plain === null && (
           <button
             type="button"
             class="button"
-            title="Asks the language model once more"
+            title={t`Asks the language model once more`}
             disabled={requestText.value !== '' && requestText.value !== state.typed}
             onClick={() => void askAgain(state)}
           >
-            Ask again
+            {t`Ask again`}
           </button>
         )}
         {state.plain === null && <span class="quiet grow votes">{spentWords(state.answer)}</span>}
@@ -227,13 +218,13 @@ function Corrections({ state }: { state: Understood }) {
 function SeedCorrections({ shape, seed }: { shape: Shape; seed: readonly Statement[] }) {
   return (
     <details class="seeds">
-      <summary>Correct {seed.length === 1 ? 'the edit' : `the ${seed.length} edits`}</summary>
+      <summary>{plural(seed.length, 'Correct the edit', 'Correct the {n} edits')}</summary>
       {seed.map((statement, i) => (
         <fieldset key={i} aria-label={statementWords(document.value, statement)}>
           <SeedFields
             shape={shape}
             choice={choiceOf(shape, statement)}
-            nothing="choose a part…"
+            nothing={t`choose a part…`}
             onChange={(next) => {
               if (isWhole(shape, next)) correctEdit({ seed: seed.with(i, seedOf(shape, next)) });
             }}
@@ -257,28 +248,27 @@ const hintsOf = (state: Understood) => ({
 function keptWords({ edit, answer }: Understood): string {
   const { relations } = answer.inference;
   const broken = relations.filter(({ relation }) => edit?.disabled.includes(relation)).length;
-  const all = relations.length === 1 ? 'Its symmetry' : `All ${relations.length} symmetries`;
-  if (broken === 0) return `${all} ${relations.length === 1 ? 'is' : 'are'} kept`;
-  return `${broken} of ${relations.length} symmetries may break`;
+  if (broken === 0) return plural(relations.length, 'Its symmetry is kept', 'All {n} symmetries are kept');
+  return t`${broken} of ${relations.length} symmetries may break`;
 }
 
 /** What has to be said of a layer that does less than one may have hoped. */
 function effectWords({ parameter, statements }: Layer): string | null {
-  if (parameter.max - parameter.min < 1e-6) return 'Nothing can move: at any other position a part would collapse.';
+  if (parameter.max - parameter.min < 1e-6) return t`Nothing can move: at any other position a part would collapse.`;
   const followers = statements.filter(({ op, why }) => op !== 'keep_fixed' && why?.kind !== 'seed');
-  return followers.length === 0 ? 'No other part has to follow.' : null;
+  return followers.length === 0 ? t`No other part has to follow.` : null;
 }
 
-const count = (n: number, what: string) => `${n.toLocaleString('en')} ${what}${n === 1 ? '' : 's'}`;
+const answersWords = (n: number) => plural(n, '{n} answer', '{n} answers');
 
 function spentWords(answer: Answer): string {
   const { calls, kept, tokens } = answer;
-  if (isDemo.value) return 'recorded answers';
+  if (isDemo.value) return t`recorded answers`;
   const cost = costOf(tokens);
   return [
-    calls > 0 && `${count(calls, 'answer')}, ${count(tokens.input + tokens.output, 'token')}`,
-    calls > 0 && cost !== null && `cost ${cost.toFixed(cost < 0.1 ? 4 : 2)}`,
-    kept > 0 && `${kept} kept from before`,
+    calls > 0 && `${answersWords(calls)}, ${plural(tokens.input + tokens.output, '{n} token', '{n} tokens')}`,
+    calls > 0 && cost !== null && t`cost ${price(cost)}`,
+    kept > 0 && t`${kept} kept from before`,
   ]
     .filter(Boolean)
     .join(' · ');
@@ -292,12 +282,22 @@ function Failures({ answer }: { answer: Answer }) {
     <>
       {failures[0] && (
         <p class="quiet">
-          {count(failures.length, 'answer')} did not come. {failures[0].message}
+          {plural(
+            failures.length,
+            '{n} answer did not come. {0}',
+            '{n} answers did not come. {0}',
+            failures[0].message,
+          )}
         </p>
       )}
       {refused[0] && (
         <p class="quiet">
-          {count(refused.length, 'answer')} could not be used: {refused[0].error.cause}.
+          {plural(
+            refused.length,
+            '{n} answer could not be used: {0}.',
+            '{n} answers could not be used: {0}.',
+            refused[0].error.cause,
+          )}
         </p>
       )}
     </>

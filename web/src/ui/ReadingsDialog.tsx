@@ -1,41 +1,33 @@
 // Other readings of a layer's request, side by side: one slider drives them all, the parts that do something else than in
 // the layer as it is are tinted, and choosing one puts it in the layer's place.
-import { signal, useSignal } from '@preact/signals';
+
+import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { Layer, Shape, Statement } from '../program/types';
 import type { State } from '../scene/explode';
 import type { Tint } from '../scene/model_view';
 import { copyOf, type Picture } from '../scene/pictures';
-import { type LayerEntry, type OpenModel, partNames } from '../session/document';
+import type { LayerEntry, OpenModel } from '../session/document';
 import { titleOf } from '../session/layers';
-import { saidFrom } from '../session/looking';
 import { playOnce, prefersReducedMotion } from '../session/play';
 import { isClean, type Proposal } from '../session/proposals';
 import { document, exchangeLayer } from '../session/session';
 import { otherReadings } from '../session/suggestions';
+import { t } from '../texts/texts';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
 import { Icon } from './Icon';
-import { evaluatorOf, paint, paintNumbered } from './pictures';
+import { evaluatorOf, paint } from './pictures';
+import { readingsOf } from './readings';
 import { faultWords } from './SuggestCard';
 import { theme } from './theme';
-
-/** Key of the layer that the dialog is about. */
-const about = signal<number | null>(null);
-
-export function showReadings({ key, layer, seen }: LayerEntry): void {
-  about.value = key;
-  dialog.value = 'readings';
-  const request = saidFrom(layer.request, seen ?? null, partNames(document.peek())).own;
-  void otherReadings.start({ task: 'request_variations', request }, paintNumbered);
-}
 
 /** Share of the way to the ends: −1 … 1. */
 const at = ({ min, max }: Layer['parameter'], share: number) => (share < 0 ? -share * min : share * max);
 
 export function ReadingsDialog() {
   const asked = otherReadings.asked.value;
-  const entry = document.value.layers.find(({ key }) => key === about.value);
+  const entry = document.value.layers.find(({ key }) => key === readingsOf.value);
   const { model } = document.value;
   const share = useSignal(1);
   const isPlaying = useSignal(!prefersReducedMotion());
@@ -48,16 +40,16 @@ export function ReadingsDialog() {
   const title = titleOf(entry.layer);
   const proposals = asked?.proposals ?? [];
   return (
-    <Dialog title={`Other readings of “${title}”`} class="readings" onClose={close}>
+    <Dialog title={t`Other readings of “${title}”`} class="readings" onClose={close}>
       <div class="row progress" role="status">
         {asked?.isRunning && (
           <>
             <span class="spinner" aria-hidden="true" />
             <p class="grow quiet">
-              {asked.isAsking ? 'Asking what else it may mean' : 'Working out what the other parts do'}
+              {asked.isAsking ? t`Asking what else it may mean` : t`Working out what the other parts do`}
             </p>
             <button type="button" class="button" onClick={otherReadings.stop}>
-              Cancel
+              {t`Cancel`}
             </button>
           </>
         )}
@@ -68,7 +60,7 @@ export function ReadingsDialog() {
           <p class="grow">{asked.failure.text}</p>
           {asked.failure.isSetting && (
             <button type="button" class="button" onClick={() => (dialog.value = 'model')}>
-              Settings
+              {t`Settings`}
             </button>
           )}
         </div>
@@ -78,8 +70,8 @@ export function ReadingsDialog() {
         <button
           type="button"
           class="button icon-only"
-          aria-label={isPlaying.value ? 'Stop' : 'Animate all'}
-          title={isPlaying.value ? 'Stop' : 'Animate all'}
+          aria-label={isPlaying.value ? t`Stop` : t`Animate all`}
+          title={isPlaying.value ? t`Stop` : t`Animate all`}
           onClick={() => {
             isPlaying.value = !isPlaying.value;
           }}
@@ -93,7 +85,7 @@ export function ReadingsDialog() {
           max={1}
           step={0.01}
           value={share.value}
-          aria-label="How far, in all readings"
+          aria-label={t`How far, in all readings`}
           onInput={(event) => {
             isPlaying.value = false;
             share.value = event.currentTarget.valueAsNumber;
@@ -170,9 +162,9 @@ function ReadingList({ model, entry, proposals, share, close }: ListProps) {
   );
   return (
     <ul class="other-readings">
-      <li class="card" aria-label="As it is now">
+      <li class="card" aria-label={t`As it is now`}>
         {canvas(0)}
-        <p>As it is now</p>
+        <p>{t`As it is now`}</p>
       </li>
       {proposals.map((proposal) => (
         <li class="card" key={proposal.key} aria-label={proposal.request}>
@@ -190,7 +182,7 @@ function ReadingList({ model, entry, proposals, share, close }: ListProps) {
                 playOnce(entry.key);
               }}
             >
-              Take this
+              {t`Take this`}
             </button>
           )}
         </li>
@@ -200,8 +192,8 @@ function ReadingList({ model, entry, proposals, share, close }: ListProps) {
 }
 
 function Said({ model, proposal: { state } }: { model: OpenModel; proposal: Proposal }) {
-  if (state.kind === 'reading') return <p class="quiet">Being read…</p>;
-  if (state.kind === 'stopped') return <p class="quiet">Not read: it was stopped.</p>;
+  if (state.kind === 'reading') return <p class="quiet">{t`Being read…`}</p>;
+  if (state.kind === 'stopped') return <p class="quiet">{t`Not read: it was stopped.`}</p>;
   if (state.kind === 'refused') return <p class="broken">{state.text}</p>;
   const fault = state.kind === 'found' ? state.fault : null;
   return fault && <p class="broken">{faultWords(model, fault)}</p>;

@@ -1,8 +1,10 @@
 // The right panel: the edits, and beside them the family of a CAD program.
+
 import type { Signal } from '@preact/signals';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { document } from '../session/session';
+import { t } from '../texts/texts';
 import { EditsPanel } from './EditsPanel';
 import { lazily } from './lazily';
 import type { FeatureKind } from './words';
@@ -32,7 +34,7 @@ export function RightPanel({ pickKind }: { readonly pickKind: Signal<FeatureKind
               tab.value = name;
             }}
           >
-            {name === 'family' ? 'Family' : 'Edits'}
+            {name === 'family' ? t`Family` : t`Edits`}
           </button>
         ))}
       </div>

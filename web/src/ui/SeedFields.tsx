@@ -1,29 +1,33 @@
 // The fields of a seed edit: what to do with a part, with which feature of it, along what, from where.
+
 import { useId } from 'preact/hooks';
 import type { Anchor, LocalTriple, Shape } from '../program/types';
 import { nameOf } from '../session/document';
 import { axes, mostAlong } from '../session/measure';
 import { document } from '../session/session';
+import { m, type Sentence, t } from '../texts/texts';
 import { groupOfPart, isOfGroup, type Operator, type SeedChoice, withPart } from './seed_choice';
-import { allFeatures, axisWords, type FeatureKind, featureKind, featureWords } from './words';
+import { allFeatures, axisWords, featureKind, featureWords } from './words';
 
-export const operators: readonly { readonly id: Operator; readonly label: string; readonly help: string }[] = [
-  { id: 'translate', label: 'Move', help: 'Moves it along a direction' },
-  { id: 'scale_1d', label: 'Stretch', help: 'Stretches it along one direction' },
-  { id: 'scale_2d', label: 'Thicken', help: 'Grows it in the two directions across one' },
-  { id: 'scale_3d', label: 'Grow', help: 'Grows it in all directions' },
-  { id: 'rotate', label: 'Tilt', help: 'Turns it about an axis' },
-  { id: 'shear', label: 'Slant', help: 'Slants it' },
-  { id: 'change_count', label: 'Count', help: 'More or fewer of the row' },
-  { id: 'change_delta', label: 'Spacing', help: 'Sets the row wider or closer' },
-  { id: 'keep_fixed', label: 'Keep', help: 'Keeps it as it is' },
+export const operators: readonly { readonly id: Operator; readonly label: Sentence; readonly help: Sentence }[] = [
+  { id: 'translate', label: m`Move`, help: m`Moves it along a direction` },
+  { id: 'scale_1d', label: m`Stretch`, help: m`Stretches it along one direction` },
+  { id: 'scale_2d', label: m`Thicken`, help: m`Grows it in the two directions across one` },
+  { id: 'scale_3d', label: m`Grow`, help: m`Grows it in all directions` },
+  { id: 'rotate', label: m`Tilt`, help: m`Turns it about an axis` },
+  { id: 'shear', label: m`Slant`, help: m`Slants it` },
+  { id: 'change_count', label: m`Count`, help: m`More or fewer of the row` },
+  { id: 'change_delta', label: m`Spacing`, help: m`Sets the row wider or closer` },
+  { id: 'keep_fixed', label: m`Keep`, help: m`Keeps it as it is` },
 ];
 
-const countAnchors: readonly [Anchor, string][] = [
-  ['middle', 'at both ends'],
-  ['start', 'at the last end'],
-  ['end', 'at the first end'],
-  ['fit', 'within the same space'],
+const kindsOf = { face: m`Faces`, edge: m`Edges`, corner: m`Corners` } as const;
+
+const countAnchors: readonly [Anchor, Sentence][] = [
+  ['middle', m`at both ends`],
+  ['start', m`at the last end`],
+  ['end', m`at the first end`],
+  ['fit', m`within the same space`],
 ];
 
 interface Props {
@@ -45,11 +49,11 @@ export function SeedFields({ shape, choice, nothing, onChange }: Props) {
   return (
     <>
       <label>
-        <span>Part</span>
+        <span>{t`Part`}</span>
         <select
           value={part}
           onChange={(event) => onChange(withPart(shape, choice, event.currentTarget.value))}
-          aria-label="Part to edit"
+          aria-label={t`Part to edit`}
         >
           <option value="">{nothing}</option>
           {shape.parts.map(({ id }) => (
@@ -59,9 +63,9 @@ export function SeedFields({ shape, choice, nothing, onChange }: Props) {
           ))}
         </select>
       </label>
-      <div class="operators" role="radiogroup" aria-label="What to do with it">
+      <div class="operators" role="radiogroup" aria-label={t`What to do with it`}>
         {operators.map(({ id, label, help }) => (
-          <label key={id} class="chip" title={help}>
+          <label key={id} class="chip" title={t(help)}>
             <input
               type="radio"
               name={`operator ${group}`}
@@ -70,26 +74,26 @@ export function SeedFields({ shape, choice, nothing, onChange }: Props) {
               disabled={isOfGroup(id) && !canBeGroup}
               onChange={() => onChange({ ...choice, op: id, amount: null, normal: null })}
             />
-            <span>{label}</span>
+            <span>{t(label)}</span>
           </label>
         ))}
       </div>
       {!isOfGroup(op) && op !== 'keep_fixed' && (
         <div class="field">
-          <span>What</span>
+          <span>{t`What`}</span>
           <FeatureSelect
-            label="The whole part or a face, edge or corner of it"
+            label={t`The whole part or a face, edge or corner of it`}
             value={feature}
-            whole="the whole part"
+            whole={t`the whole part`}
             onChange={(next) => onChange({ ...choice, feature: next })}
           />
         </div>
       )}
       {needsDirection && (
         <label>
-          <span>{op === 'rotate' ? 'About' : op === 'scale_2d' ? 'Across' : 'Along'}</span>
+          <span>{op === 'rotate' ? t`About` : op === 'scale_2d' ? t`Across` : t`Along`}</span>
           <select
-            aria-label="Direction"
+            aria-label={t`Direction`}
             value={straight && !('part' in direction) ? mostAlong(direction) : 'other'}
             onChange={(event) => {
               const axis = axes[Number(event.currentTarget.value)];
@@ -97,15 +101,15 @@ export function SeedFields({ shape, choice, nothing, onChange }: Props) {
             }}
           >
             {axisWords.map((words, i) => (
-              <option key={words} value={i}>
-                {words}
+              <option key={i} value={i}>
+                {t(words)}
               </option>
             ))}
             {!straight && (
               <option value="other">
                 {'part' in direction
-                  ? `${axisWords[direction.axis]} of ${nameOf(document.value, direction.part)}`
-                  : 'at an angle'}
+                  ? t`${t(axisWords[direction.axis])} of ${nameOf(document.value, direction.part)}`
+                  : t`at an angle`}
               </option>
             )}
           </select>
@@ -113,30 +117,30 @@ export function SeedFields({ shape, choice, nothing, onChange }: Props) {
       )}
       {needsOrigin && (
         <div class="field">
-          <span>From</span>
+          <span>{t`From`}</span>
           <FeatureSelect
-            label="Point that stays"
+            label={t`Point that stays`}
             value={ownOrigin ? origin.at : null}
             other={
               'part' in origin
-                ? `${featureWords(origin.at)} of ${nameOf(document.value, origin.part)}`
-                : 'a point elsewhere'
+                ? t`${featureWords(origin.at)} of ${nameOf(document.value, origin.part)}`
+                : t`a point elsewhere`
             }
-            whole="its centre"
+            whole={t`its centre`}
             onChange={(at) => onChange({ ...choice, origin: { part, at } })}
           />
         </div>
       )}
       {op === 'change_count' && (
         <label>
-          <span>Where</span>
+          <span>{t`Where`}</span>
           <select
             value={anchor}
             onChange={(event) => onChange({ ...choice, anchor: event.currentTarget.value as Anchor })}
           >
             {countAnchors.map(([id, words]) => (
               <option key={id} value={id}>
-                {words}
+                {t(words)}
               </option>
             ))}
           </select>
@@ -156,7 +160,6 @@ interface FeatureSelectProps {
 }
 
 function FeatureSelect({ label, value, other, whole, onChange }: FeatureSelectProps) {
-  const kinds: readonly FeatureKind[] = ['face', 'edge', 'corner'];
   return (
     <select
       aria-label={label}
@@ -168,13 +171,13 @@ function FeatureSelect({ label, value, other, whole, onChange }: FeatureSelectPr
     >
       {value === null && <option value="other">{other}</option>}
       <option value="0,0,0">{whole}</option>
-      {kinds.map((kind) => (
-        <optgroup key={kind} label={`${kind.charAt(0).toUpperCase()}${kind.slice(1)}s`}>
+      {(['face', 'edge', 'corner'] as const).map((kind) => (
+        <optgroup key={kind} label={t(kindsOf[kind])}>
           {allFeatures
             .filter((feature) => featureKind(feature) === kind)
             .map((feature) => (
               <option key={feature.join()} value={feature.join()}>
-                its {featureWords(feature)}
+                {t`its ${featureWords(feature)}`}
               </option>
             ))}
         </optgroup>

@@ -7,6 +7,7 @@ import { beginCut, cutting } from '../session/cutting';
 import { nameOf } from '../session/document';
 import { document, isolate, select, selectAll, selected, setHidden, task } from '../session/session';
 import { alike, realParts } from '../session/several';
+import { t } from '../texts/texts';
 import { listWords } from './words';
 
 /**
@@ -32,10 +33,10 @@ export function SelectionBar({
   const isReal = new Set(real);
   const isAlone = shape.parts.every(({ id, virtual }) => virtual || isReal.has(id) !== hidden.has(id));
   return (
-    <section class="selection" aria-label="Selection">
+    <section class="selection" aria-label={t`Selection`}>
       {ids.length > 1 && (
         <h3>
-          {real.length} parts selected
+          {t`${real.length} parts selected`}
           <span class="quiet">{listWords(firstNames, 3, ids.length)}</span>
         </h3>
       )}
@@ -45,14 +46,14 @@ export function SelectionBar({
           <button
             type="button"
             class="chip-button"
-            title="Those of its label, its mirror images, and those in a row with it"
+            title={t`Those of its label, its mirror images, and those in a row with it`}
             onClick={() => selectAll([first, ...like.filter((id) => id !== first)])}
           >
-            All {like.length} like this
+            {t`All ${like.length} like this`}
           </button>
         )}
         <button type="button" class="chip-button" aria-pressed={isAlone} title="I" onClick={() => isolate(ids)}>
-          {isAlone ? 'Show all' : real.length > 1 ? 'Show only these' : 'Show only this'}
+          {isAlone ? t`Show all` : real.length > 1 ? t`Show only these` : t`Show only this`}
         </button>
         {real.length > 0 && <ByHand shape={shape} ids={ids} real={real} />}
         {ids.length > 1 && (
@@ -66,10 +67,10 @@ export function SelectionBar({
                 select(null);
               }}
             >
-              Hide them
+              {t`Hide them`}
             </button>
             <button type="button" class="chip-button" onClick={onEdit}>
-              Edit together
+              {t`Edit together`}
             </button>
           </>
         )}
@@ -92,30 +93,30 @@ function ByHand({ shape, ids, real }: { shape: Shape; ids: readonly string[]; re
           type="button"
           class="chip-button"
           disabled={isOff}
-          title={why ?? 'Makes one part of them, if they are of one material'}
+          title={why ?? t`Makes one part of them, if they are of one material`}
           onClick={() => carve({ kind: 'join', parts: keysOf(shape, ids) })}
         >
-          Join to one part
+          {t`Join to one part`}
         </button>
       ) : (
         <button
           type="button"
           class="chip-button"
           disabled={isOff}
-          title={why ?? 'Pieces of it that do not hang together become parts of their own'}
+          title={why ?? t`Pieces of it that do not hang together become parts of their own`}
           onClick={() => carve({ kind: 'divide', part: keysOf(shape, real)[0] ?? '' })}
         >
-          Split into pieces
+          {t`Split into pieces`}
         </button>
       )}
       <button
         type="button"
         class="chip-button"
         disabled={isOff}
-        title={why ?? 'Cuts by a plane that you place'}
+        title={why ?? t`Cuts by a plane that you place`}
         onClick={() => beginCut(shape)}
       >
-        Cut…
+        {t`Cut…`}
       </button>
     </>
   );

@@ -1,8 +1,10 @@
 // A link that holds the work, and what whoever opens it will need.
+
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { document } from '../session/session';
 import { linkWarningLength } from '../share/link';
+import { t } from '../texts/texts';
 import { dialog, saveSession, shareLink } from './actions';
 import { Dialog } from './Dialog';
 
@@ -29,23 +31,23 @@ export function ShareDialog() {
   };
   return (
     <Dialog
-      title="Share"
+      title={t`Share`}
       onClose={() => {
         dialog.value = null;
       }}
     >
-      <p>The link holds the edits, their sliders and the view, and no server sees it.</p>
+      <p>{t`The link holds the edits, their sliders and the view, and no server sees it.`}</p>
       <div class="row">
         <input
           ref={field}
           class="grow"
           readOnly
           value={link.value}
-          aria-label="Link"
+          aria-label={t`Link`}
           onFocus={() => field.current?.select()}
         />
         <button type="button" class="button primary" onClick={copy}>
-          {copied.value ? 'Copied' : 'Copy'}
+          {copied.value ? t`Copied` : t`Copy`}
         </button>
       </div>
       <label class="check">
@@ -56,20 +58,20 @@ export function ShareDialog() {
             embed.value = event.currentTarget.checked;
           }}
         />
-        <span>As a viewer with sliders only, for an &lt;iframe&gt;</span>
+        <span>{t`As a viewer with sliders only, for an <iframe>`}</span>
       </label>
       {source === 'file' && (
         <p class="quiet">
-          Your model stays with you: whoever opens the link is asked for the file “{document.value.model?.files.name}”.
+          {t`Your model stays with you: whoever opens the link is asked for the file “${document.value.model?.files.name ?? ''}”.`}
         </p>
       )}
       {link.value.length > linkWarningLength && (
         <p class="broken">
-          At {(link.value.length / 1024).toFixed(0)} kB this link is too long for some programs. A file is safer.
+          {t`At ${Math.round(link.value.length / 1024)} kB this link is too long for some programs. A file is safer.`}
         </p>
       )}
       <button type="button" class="button" onClick={saveSession}>
-        Save as a file instead
+        {t`Save as a file instead`}
       </button>
     </Dialog>
   );

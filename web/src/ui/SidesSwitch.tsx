@@ -1,9 +1,12 @@
 // Whose left and right a request means: the object's own, or those of whoever looks at it.
+
 import { facing, speakAsSeen, speaksAsSeen } from '../session/facing';
 import { saysSide } from '../session/looking';
 import type { Understood } from '../session/request';
 import { readFrom, requestText } from '../session/requests';
 import { document, task } from '../session/session';
+import { t } from '../texts/texts';
+import { sideName } from './words';
 
 /** A switch; it counts for the requests that are sent from then on. */
 export function SidesSwitch() {
@@ -12,10 +15,10 @@ export function SidesSwitch() {
       type="button"
       class="whose"
       aria-pressed={speaksAsSeen.value}
-      title="What “left”, “right”, “front” and “back” of a request mean: the object's own sides, or yours as you look at it"
+      title={t`What “left”, “right”, “front” and “back” of a request mean: the object's own sides, or yours as you look at it`}
       onClick={() => speakAsSeen(!speaksAsSeen.peek())}
     >
-      From where I look
+      {t`From where I look`}
     </button>
   );
 }
@@ -27,8 +30,8 @@ export function SidesLine() {
     <p class="sides-line">
       <span class="quiet">
         {speaksAsSeen.value
-          ? `Sides are yours, as you look at its ${facing.value}`
-          : 'Left, right, front and back are the object’s own'}
+          ? t`Sides are yours, as you look at its ${sideName(facing.value)}`
+          : t`Left, right, front and back are the object’s own`}
       </span>
       <SidesSwitch />
     </p>
@@ -44,8 +47,10 @@ export function SidesRead({ state }: { state: Understood }) {
     <p class="plainly">
       <span class="quiet grow">
         {seen === null
-          ? 'Sides: the object’s own'
-          : `Sides: yours, as you look at its ${seen}${own === typed ? '' : `; read as “${own}”`}`}
+          ? t`Sides: the object’s own`
+          : own === typed
+            ? t`Sides: yours, as you look at its ${sideName(seen)}`
+            : t`Sides: yours, as you look at its ${sideName(seen)}; read as “${own}”`}
       </span>
       <button
         type="button"
@@ -53,7 +58,7 @@ export function SidesRead({ state }: { state: Understood }) {
         disabled={!isSent || task.value !== null || document.value.model !== state.model}
         onClick={() => void readFrom(state, seen === null ? facing.peek() : null)}
       >
-        {seen === null ? 'Read it from where I look' : 'Read it with its own sides'}
+        {seen === null ? t`Read it from where I look` : t`Read it with its own sides`}
       </button>
     </p>
   );

@@ -1,8 +1,10 @@
 // What is said of a model in one piece: the offer to tell its parts apart, and, when that is done, how fine.
+
 import { useSignal } from '@preact/signals';
 import { models } from '../session/core';
 import { document, task } from '../session/session';
 import { declineSplit, offersSplit, splitDefaults, splitModel, splitNow } from '../session/splitting';
+import { t } from '../texts/texts';
 import { Icon } from './Icon';
 
 /** In the middle of the page, where the model is: the offer. */
@@ -10,17 +12,17 @@ export function SplitOffer() {
   if (!offersSplit.value || task.value) return null;
   const { by, fine } = splitDefaults;
   return (
-    <section class="panel note tour-offer" aria-label="Parts">
-      <span>This model has hardly any parts to edit.</span>
+    <section class="panel note tour-offer" aria-label={t`Parts`}>
+      <span>{t`This model has hardly any parts to edit.`}</span>
       <button
         type="button"
         class="button"
         disabled={models.value === null}
         onClick={() => models.value && void splitModel(models.value, by, fine)}
       >
-        Split it into parts
+        {t`Split it into parts`}
       </button>
-      <button type="button" class="button icon-only" aria-label="Leave it in one piece" onClick={declineSplit}>
+      <button type="button" class="button icon-only" aria-label={t`Leave it in one piece`} onClick={declineSplit}>
         <Icon name="close" />
       </button>
     </section>
@@ -41,19 +43,19 @@ export function SplitCard() {
         disabled={models.value === null || task.value !== null || isEdited}
         title={
           isEdited
-            ? 'Take the edits back first: they belong to the parts as they are'
-            : 'What does not hang together becomes parts of its own'
+            ? t`Take the edits back first: they belong to the parts as they are`
+            : t`What does not hang together becomes parts of its own`
         }
         onClick={() => models.value && void splitModel(models.value, by, fine)}
       >
-        Split parts that fall apart
+        {t`Split parts that fall apart`}
       </button>
     );
   }
   return (
-    <section class="split-card" aria-label="Splitting">
+    <section class="split-card" aria-label={t`Splitting`}>
       <label for="split-fine">
-        Split into {now.parts} parts <span class="quiet">how fine</span>
+        {t`Split into ${now.parts} parts`} <span class="quiet">{t`how fine`}</span>
       </label>
       <input
         id="split-fine"
@@ -65,10 +67,10 @@ export function SplitCard() {
         disabled={models.value === null || task.value !== null || isEdited || now.isCarved}
         title={
           now.isCarved
-            ? 'Undo what was changed by hand to split the model anew'
+            ? t`Undo what was changed by hand to split the model anew`
             : isEdited
-              ? 'Take the edits back to split the model anew'
-              : 'Left: small pieces go to what they sit on'
+              ? t`Take the edits back to split the model anew`
+              : t`Left: small pieces go to what they sit on`
         }
         aria-valuetext={fineWords(dragged.value ?? now.fine)}
         onInput={(event) => {
@@ -87,4 +89,4 @@ export function SplitCard() {
 }
 
 const fineWords = (fine: number): string =>
-  fine >= 1 ? 'every piece is a part' : fine <= 0 ? 'large parts only' : `${Math.round(fine * 100)} % fine`;
+  fine >= 1 ? t`every piece is a part` : fine <= 0 ? t`large parts only` : t`${Math.round(fine * 100)} % fine`;

@@ -1,8 +1,10 @@
 // What the edits keep together, in one line for the model; and where a slider stops for the others' sake.
+
 import { models } from '../session/core';
 import type { LayerEntry } from '../session/document';
 import { document, pointedAt, sliderValue, stops, useCore } from '../session/session';
 import { watchVerdict } from '../session/verdict';
+import { plural, t } from '../texts/texts';
 import { Icon } from './Icon';
 import { capital, relationWords } from './words';
 
@@ -17,23 +19,19 @@ export function StackVerdict() {
   if (found === null || model === null) return null;
   const { of, lost, settings, failed, failure } = found;
   const sound = lost.length === 0 && failed === 0;
-  const relations = `${of} ${of === 1 ? 'relation' : 'relations'}`;
+  const relations = plural(of, '{n} relation', '{n} relations');
   return (
-    <section class="status together" aria-label="All edits together">
+    <section class="status together" aria-label={t`All edits together`}>
       <p class={sound ? 'held' : 'broken'}>
         <Icon name={sound ? 'check' : 'warning'} />
         <span>
           {lost.length === 0
-            ? `Together the edits keep ${relations} wherever the sliders stand`
-            : `Together the edits break ${lost.length} of ${relations} at some settings; the sliders stop there`}
-          <span class="quiet"> · {settings} settings sampled</span>
+            ? t`Together the edits keep ${relations} wherever the sliders stand`
+            : t`Together the edits break ${lost.length} of ${relations} at some settings; the sliders stop there`}
+          <span class="quiet"> · {t`${settings} settings sampled`}</span>
         </span>
       </p>
-      {failed > 0 && (
-        <p class="quiet">
-          At {failed} of them: {failure}.
-        </p>
-      )}
+      {failed > 0 && <p class="quiet">{t`At ${failed} of them: ${failure}.`}</p>}
       {lost.length > 0 && (
         <ul>
           {lost.map((id) => {
@@ -85,5 +83,5 @@ export function stopWords(entry: LayerEntry): string | null {
   const value = sliderValue(entry);
   const near = (entry.layer.parameter.max - entry.layer.parameter.min) / 1000;
   const reason = value >= stop.max - near ? stop.maxReason : value <= stop.min + near ? stop.minReason : '';
-  return reason === '' ? null : `Stops here, where the other sliders stand. ${capital(reason)}.`;
+  return reason === '' ? null : t`Stops here, where the other sliders stand. ${capital(reason)}.`;
 }

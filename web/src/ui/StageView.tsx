@@ -1,10 +1,12 @@
 // The canvas: hover and click on parts, and on their features while an edit is made by hand.
+
 import type { Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { LocalTriple, Sign, Vec3 } from '../program/types';
 import type { Insets } from '../scene/camera';
 import { ruler, setPoint } from '../session/ruler';
 import { document, hovered, select, selectAlso, selected, selection } from '../session/session';
+import { t } from '../texts/texts';
 import { BoxSelect } from './BoxSelect';
 import { brightness, mountStage, several, stage } from './view';
 import type { FeatureKind } from './words';
@@ -54,7 +56,7 @@ export function StageView({ insets, pickKind }: StageViewProps) {
         class={`stage ${brightness.value > pale ? 'pale' : brightness.value < deep ? 'deep' : ''}`}
         tabIndex={0}
         role="img"
-        aria-label={model === null ? 'No model yet' : `${model.shape.name}, turn with the arrow keys`}
+        aria-label={model === null ? t`No model yet` : t`${model.shape.name}, turn with the arrow keys`}
         onPointerDown={(event) => {
           pressed.current = event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
         }}

@@ -1,13 +1,16 @@
 // One line for what is being done, with a way to stop it, and for what has to be said.
+
 import { signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { autosave } from '../session/autosave';
 import { core, models } from '../session/core';
 import { awaited, awaitedAddress, fetchAwaited, fetchOffered, offered } from '../session/open';
 import { document, notice, task } from '../session/session';
+import { m, t } from '../texts/texts';
 import { saveSession } from './actions';
 import { isInForeignFrame } from './frame';
 import { Icon } from './Icon';
+import { rich } from './rich';
 import { update, updateReady } from './update';
 
 export function StatusLine() {
@@ -22,16 +25,16 @@ export function StatusLine() {
             <span class="spinner" aria-hidden="true" />
             {task.value.text}
             <button type="button" class="button" onClick={() => task.value?.cancel()}>
-              Cancel
+              {t`Cancel`}
             </button>
           </p>
         )}
         {state.kind === 'failed' && <p class="panel note error">{state.text}</p>}
         {updateReady.value && !task.value && (
           <p class="panel note">
-            A new version is ready.
+            {t`A new version is ready.`}
             <button type="button" class="button" onClick={() => void update()}>
-              Reload
+              {t`Reload`}
             </button>
             <DismissButton onClick={() => (updateReady.value = false)} />
           </p>
@@ -56,7 +59,7 @@ function Awaited() {
   const work = awaited.value;
   const address = work === null ? offered.value : awaitedAddress.value;
   if (work === null && address === null) return null;
-  const made = work === null ? 'This link names a model' : `This work was made on “${work.saved.model.name}”`;
+  const made = work === null ? t`This link names a model` : t`This work was made on “${work.saved.model.name}”`;
   const fetchIt = () => {
     const core = models.value;
     if (core !== null) void (work === null ? fetchOffered(core) : fetchAwaited(core));
@@ -66,14 +69,16 @@ function Awaited() {
       {address !== null && mayFetch(address) ? (
         <>
           <span>
-            {made}, to be fetched from <code class="address">{address}</code>
+            {rich(t`${made}, to be fetched from <code>${address}</code>`, {
+              code: (text) => <code class="address">{text}</code>,
+            })}
           </span>
           <button type="button" class="button" onClick={fetchIt}>
-            Fetch it
+            {t`Fetch it`}
           </button>
         </>
       ) : (
-        <span>{made}. Drop that file here to see it.</span>
+        <span>{t`${made}. Drop that file here to see it.`}</span>
       )}
       <button
         type="button"
@@ -82,15 +87,15 @@ function Awaited() {
           awaited.value = offered.value = null;
         }}
       >
-        Forget it
+        {t`Forget it`}
       </button>
     </p>
   );
 }
 
 const unkeptWords = {
-  full: 'This browser has no room left for your work: a reload would lose it.',
-  refused: 'This browser does not keep your work: a reload would lose it.',
+  full: m`This browser has no room left for your work: a reload would lose it.`,
+  refused: m`This browser does not keep your work: a reload would lose it.`,
 } as const;
 
 /** Said once; again when saving has worked in between. */
@@ -104,9 +109,9 @@ function Unkept() {
   if (why === null || isDismissed.value || document.value.model === null) return null;
   return (
     <ErrorNote onDismiss={() => (isDismissed.value = true)}>
-      <span>{unkeptWords[why]}</span>
+      <span>{t(unkeptWords[why])}</span>
       <button type="button" class="button" onClick={saveSession}>
-        Save it as a file
+        {t`Save it as a file`}
       </button>
     </ErrorNote>
   );
@@ -143,7 +148,7 @@ function Note({ text, kind }: { text: string; kind: 'info' | 'error' }) {
 
 function DismissButton({ onClick }: { onClick: () => void }) {
   return (
-    <button type="button" class="button icon-only" aria-label="Dismiss" onClick={onClick}>
+    <button type="button" class="button icon-only" aria-label={t`Dismiss`} onClick={onClick}>
       <Icon name="close" />
     </button>
   );

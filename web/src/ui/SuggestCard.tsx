@@ -1,5 +1,6 @@
 // A suggested slider: what it does in three pictures, the slider itself, which moves the model without being part of the
 // work yet, and what is wrong with it where it is not clean.
+
 import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import type { Layer } from '../program/types';
@@ -9,6 +10,7 @@ import { playOnce } from '../session/play';
 import type { Fault, Proposal } from '../session/proposals';
 import { document } from '../session/session';
 import { suggestions } from '../session/suggestions';
+import { m, number, t } from '../texts/texts';
 import { Icon } from './Icon';
 import { Menu } from './Menu';
 import { evaluatorOf, strip, strips } from './pictures';
@@ -33,21 +35,21 @@ export function SuggestCard({ model, proposal, first, last, isRunning }: CardPro
       <header>
         {renaming.value ? <Rename proposal={proposal} done={() => (renaming.value = false)} /> : <h4>{request}</h4>}
         <Menu
-          label={`More about the suggestion ${request}`}
+          label={t`More about the suggestion ${request}`}
           class="button icon-only"
           items={[
-            { label: 'Rename', act: () => (renaming.value = true) },
-            { label: 'Move up', disabled: first, act: () => suggestions.move(key, -1) },
-            { label: 'Move down', disabled: last, act: () => suggestions.move(key, 1) },
-            { label: 'Drop', act: () => suggestions.drop(key) },
+            { label: t`Rename`, act: () => (renaming.value = true) },
+            { label: t`Move up`, disabled: first, act: () => suggestions.move(key, -1) },
+            { label: t`Move down`, disabled: last, act: () => suggestions.move(key, 1) },
+            { label: t`Drop`, act: () => suggestions.drop(key) },
           ]}
         >
           <Icon name="more" />
         </Menu>
       </header>
-      {state.kind === 'reading' && <p class="quiet">Being read…</p>}
-      {state.kind === 'stopped' && <p class="quiet">Not read: it was stopped.</p>}
-      {state.kind === 'refused' && <Warning text={`No slider came of it. ${state.text}`} />}
+      {state.kind === 'reading' && <p class="quiet">{t`Being read…`}</p>}
+      {state.kind === 'stopped' && <p class="quiet">{t`Not read: it was stopped.`}</p>}
+      {state.kind === 'refused' && <Warning text={t`No slider came of it. ${state.text}`} />}
       {layer !== undefined && moves && <Moves model={model} proposal={proposal} layer={layer} />}
       {state.kind === 'found' && state.fault !== null && <Warning text={faultWords(model, state.fault)} />}
       {state.kind !== 'reading' && (
@@ -61,17 +63,17 @@ export function SuggestCard({ model, proposal, first, last, isRunning }: CardPro
                 if (kept !== null) playOnce(kept);
               }}
             >
-              <Icon name="check" /> {state.fault === null ? 'Keep' : 'Keep anyway'}
+              <Icon name="check" /> {state.fault === null ? t`Keep` : t`Keep anyway`}
             </button>
           )}
           {state.kind === 'found' && state.looser !== null && (
             <button
               type="button"
               class="button outlined"
-              title="Parts that were to stay may follow, so that nothing comes apart"
+              title={t`Parts that were to stay may follow, so that nothing comes apart`}
               onClick={() => suggestions.loosen(key)}
             >
-              Let parts follow
+              {t`Let parts follow`}
             </button>
           )}
           {(state.kind === 'stopped' || state.kind === 'refused') && (
@@ -81,11 +83,11 @@ export function SuggestCard({ model, proposal, first, last, isRunning }: CardPro
               disabled={isRunning}
               onClick={() => void suggestions.readAgain(key)}
             >
-              Read it
+              {t`Read it`}
             </button>
           )}
           <button type="button" class="button" onClick={() => suggestions.drop(key)}>
-            Drop
+            {t`Drop`}
           </button>
         </div>
       )}
@@ -100,7 +102,7 @@ function Rename({ proposal, done }: { proposal: Proposal; done: () => void }) {
       class="rename"
       value={proposal.request}
       maxLength={400}
-      aria-label="Name of the slider"
+      aria-label={t`Name of the slider`}
       ref={(element) => element?.focus()}
       onBlur={(event) => {
         done();
@@ -126,20 +128,20 @@ function Warning({ text }: { text: string }) {
 export function faultWords({ shape }: OpenModel, fault: Fault): string {
   switch (fault.kind) {
     case 'still':
-      return 'Nothing can move: at any other position a part would collapse.';
+      return t`Nothing can move: at any other position a part would collapse.`;
     case 'same':
-      return `It does the same as “${fault.as}”`;
+      return t`It does the same as “${fault.as}”`;
     case 'broken': {
       const words = fault.relations.flatMap((id) => {
         const relation = shape.relations.find((one) => one.id === id);
         return relation === undefined ? [] : [relationWords(document.value, relation)];
       });
-      return `Not kept on the way: ${listWords(words)}.`;
+      return t`Not kept on the way: ${listWords(words)}.`;
     }
   }
 }
 
-const ends = ['least', 'as it is', 'most'] as const;
+const ends = [m`least@end`, m`as it is`, m`most@end`] as const;
 const steps = 200;
 
 /** The pictures, each a click to that value, and the slider. */
@@ -157,9 +159,9 @@ function Moves({ model, proposal, layer }: { model: OpenModel; proposal: Proposa
       <div class="strip">
         {strip(layer.parameter).map((to, i) => (
           <button
-            key={ends[i]}
+            key={i}
             type="button"
-            aria-label={`${request}: ${ends[i]}`}
+            aria-label={`${request}: ${t(ends[i] ?? ends[1])}`}
             aria-pressed={value === to}
             onClick={() => go(to)}
           >
@@ -178,9 +180,9 @@ function Moves({ model, proposal, layer }: { model: OpenModel; proposal: Proposa
           max={max}
           step="any"
           value={value}
-          aria-label={`${request}: amount`}
+          aria-label={t`${request}: amount`}
           aria-valuetext={text}
-          title="Double-click resets"
+          title={t`Double-click resets`}
           onInput={(event) => go(event.currentTarget.valueAsNumber)}
           onDblClick={() => go(0)}
           onKeyDown={(event) => {
@@ -201,7 +203,7 @@ function readingOf({ shape }: OpenModel, layer: Layer, value: number): string {
   const seed = layer.statements.find(({ why }) => why?.kind === 'seed') ?? layer.statements[0];
   const measure = measureOf(shape, seed);
   const evaluator = evaluatorOf(shape, layer);
-  if (measure === null || evaluator === null) return value.toFixed(2);
+  if (measure === null || evaluator === null) return number(value, 2, 2);
   const [rest = 0, now = 0] = readAt(shape, measure, evaluator, [0], 0, [0, value]);
   const show = (reading: number) => formatMeasure(measure.what, reading, larger(rest, now));
   return `${measureName(measure)} ${value === 0 ? show(rest) : `${show(rest)} → ${show(now)}`}`;

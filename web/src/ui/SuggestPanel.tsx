@@ -1,11 +1,13 @@
 // Suggested sliders: asked for with one click, they come in as cards, each with pictures of what it does, to be kept,
 // renamed, arranged or dropped.
+
 import { useEffect, useRef } from 'preact/hooks';
 import { costOf, isDemo } from '../llm/settings';
 import { playOnce } from '../session/play';
 import type { Asked } from '../session/proposals';
 import { isClean } from '../session/proposals';
 import { suggestions } from '../session/suggestions';
+import { price, t } from '../texts/texts';
 import { AskFailure } from './AskFailure';
 import { Icon } from './Icon';
 import { drawStrips, paintNumbered } from './pictures';
@@ -25,9 +27,9 @@ export function SuggestPanel() {
   const open = suggestions.open.value;
   const clean = open.filter(isClean);
   return (
-    <section class="suggested" aria-label="Suggested sliders" ref={section}>
+    <section class="suggested" aria-label={t`Suggested sliders`} ref={section}>
       <header class="row">
-        <h3 class="grow">Suggested sliders</h3>
+        <h3 class="grow">{t`Suggested sliders`}</h3>
         {clean.length > 0 && (
           <button
             type="button"
@@ -38,14 +40,14 @@ export function SuggestPanel() {
               if (first !== undefined) playOnce(first);
             }}
           >
-            Keep all {clean.length}
+            {t`Keep all ${clean.length}`}
           </button>
         )}
         <button
           type="button"
           class="button icon-only"
-          aria-label="Drop all suggestions"
-          title="Drop all"
+          aria-label={t`Drop all suggestions`}
+          title={t`Drop all`}
           onClick={suggestions.close}
         >
           <Icon name="close" />
@@ -67,7 +69,7 @@ export function SuggestPanel() {
       </ul>
       {asked.dropped.length > 0 && (
         <details>
-          <summary>Left out of the answer: {asked.dropped.length}</summary>
+          <summary>{t`Left out of the answer: ${asked.dropped.length}`}</summary>
           <ul>
             {asked.dropped.map(({ request, reason }) => (
               <li key={`${request} ${reason}`}>
@@ -90,14 +92,14 @@ function Progress({ asked }: { asked: Asked }) {
       {isRunning && <span class="spinner" aria-hidden="true" />}
       <p class="grow quiet">
         {isAsking
-          ? 'Asking what could vary'
+          ? t`Asking what could vary`
           : isRunning
-            ? `Reading the suggestions, ${read} of ${proposals.length}`
+            ? t`Reading the suggestions, ${read} of ${proposals.length}`
             : endWords(asked)}
       </p>
       {isRunning && (
         <button type="button" class="button outlined" onClick={suggestions.stop}>
-          Cancel
+          {t`Cancel`}
         </button>
       )}
     </div>
@@ -107,14 +109,14 @@ function Progress({ asked }: { asked: Asked }) {
 function endWords({ proposals, spent }: Asked): string {
   if (proposals.length === 0) return '';
   const clean = proposals.filter(isClean).length;
-  const sliders = `${clean} of ${proposals.length} are clean`;
-  if (isDemo.value) return `${sliders} · recorded answers`;
+  const sliders = t`${clean} of ${proposals.length} are clean`;
+  if (isDemo.value) return `${sliders} · ${t`recorded answers`}`;
   const { input, output } = spent.tokens;
   const cost = costOf(spent.tokens);
   return [
     sliders,
-    spent.calls > 0 && `${spent.calls} answers, ${(input + output).toLocaleString('en')} tokens`,
-    spent.calls > 0 && cost !== null && `cost ${cost.toFixed(cost < 0.1 ? 4 : 2)}`,
+    spent.calls > 0 && t`${spent.calls} answers, ${input + output} tokens`,
+    spent.calls > 0 && cost !== null && t`cost ${price(cost)}`,
   ]
     .filter(Boolean)
     .join(' · ');

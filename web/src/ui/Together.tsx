@@ -1,7 +1,9 @@
 // What all sliders do together: somewhere at random, or nine siblings to choose from.
+
 import { models } from '../session/core';
 import { compiled, task } from '../session/session';
 import { surprise } from '../session/siblings';
+import { t } from '../texts/texts';
 import { dialog } from './actions';
 import { Icon } from './Icon';
 
@@ -13,21 +15,21 @@ export function Together() {
       <button
         type="button"
         class="button wide"
-        title="Puts all sliders somewhere in their ranges"
+        title={t`Puts all sliders somewhere in their ranges`}
         disabled={!isIdle}
         onClick={() => void surprise()}
       >
-        <Icon name="dice" /> Surprise me
+        <Icon name="dice" /> {t`Surprise me`}
       </button>
       <button
         type="button"
         class="button wide"
-        title="Nine ways to put the sliders, to choose from"
+        title={t`Nine ways to put the sliders, to choose from`}
         disabled={!isIdle}
         aria-haspopup="dialog"
         onClick={() => (dialog.value = 'explore')}
       >
-        <Icon name="grid" /> Explore
+        <Icon name="grid" /> {t`Explore`}
       </button>
     </div>
   );

@@ -1,4 +1,5 @@
 // Below the view: whole centimetres while one drags, and a ruler between two points.
+
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { nameOf } from '../session/document';
@@ -6,8 +7,11 @@ import { formatMeasure } from '../session/measure';
 import { measured, ruler, setPoint, toggleRuler } from '../session/ruler';
 import { document, selected } from '../session/session';
 import { snap, snapping } from '../session/snapping';
+import { m, t } from '../texts/texts';
 import { Icon } from './Icon';
 import { stage } from './view';
+
+const along = [m`{0} across`, m`{0} up`, m`{0} deep`] as const;
 
 export function Tools() {
   const { model, unit } = document.value;
@@ -19,8 +23,12 @@ export function Tools() {
         type="button"
         class="button"
         aria-pressed={snapping.value}
-        aria-label={`Snap to ${step}`}
-        title={`What is dragged stops at whole ${unit === 'in' ? 'inches' : 'centimetres'} (S)`}
+        aria-label={t`Snap to ${step}`}
+        title={
+          unit === 'in'
+            ? t`What is dragged stops at whole inches (S)`
+            : t`What is dragged stops at whole centimetres (S)`
+        }
         onClick={() => snap(!snapping.peek())}
       >
         <Icon name="snap" />
@@ -30,8 +38,8 @@ export function Tools() {
         type="button"
         class="button icon-only"
         aria-pressed={ruler.value !== null}
-        aria-label="Ruler"
-        title="Measure between two points (R)"
+        aria-label={t`Ruler`}
+        title={t`Measure between two points (R)`}
         onClick={toggleRuler}
       >
         <Icon name="ruler" />
@@ -59,27 +67,27 @@ export function RulerCard() {
   const length = (metres: number, like = metres) => formatMeasure('distance', metres, like, unit);
   const names = ruler.value.map(({ part }) => nameOf(document.value, part));
   return (
-    <section class="panel note" aria-label="Ruler">
+    <section class="panel note" aria-label={t`Ruler`}>
       <p class="grow" role="status">
         {now.length === null ? (
           names.length === 0 ? (
-            'Click two points of the model, or select two parts in the list.'
+            t`Click two points of the model, or select two parts in the list.`
           ) : (
-            `From ${names[0]}: click the other point.`
+            t`From ${names[0] ?? ''}: click the other point.`
           )
         ) : (
           <>
             <strong>{length(now.length.whole)}</strong>{' '}
             <span class="quiet">
-              {names[0] === names[1] ? `on ${names[0]}` : `from ${names[0]} to ${names[1]}`} ·{' '}
+              {names[0] === names[1] ? t`on ${names[0] ?? ''}` : t`from ${names[0] ?? ''} to ${names[1] ?? ''}`} ·{' '}
               {now.length.along
-                .map((metres, i) => `${length(metres, now.length?.whole)} ${['across', 'up', 'deep'][i]}`)
+                .map((metres, i) => t(along[i] ?? along[0], length(metres, now.length?.whole)))
                 .join(', ')}
             </span>
           </>
         )}
       </p>
-      <button type="button" class="button icon-only" aria-label="Put the ruler away" onClick={toggleRuler}>
+      <button type="button" class="button icon-only" aria-label={t`Put the ruler away`} onClick={toggleRuler}>
         <Icon name="close" />
       </button>
     </section>

@@ -1,5 +1,6 @@
 // A layer's slider, and its value as the length, angle or count that it changes: drag, type, double-click to reset,
 // arrows (with Shift ten steps, with Alt a tenth), Page keys, Home and End.
+
 import { useComputed, useSignal } from '@preact/signals';
 import { useId } from 'preact/hooks';
 import { models } from '../session/core';
@@ -13,6 +14,7 @@ import { interrupt } from '../session/play';
 import { readLayer, solveLayer } from '../session/reading';
 import { compiled, document, settle, setValue, slide, sliderValue, step } from '../session/session';
 import { snapped } from '../session/snapping';
+import { m, number, t } from '../texts/texts';
 import { Closed, stopWords } from './StackVerdict';
 import { reasonOfEnd } from './slider_end';
 import { cleanShares, Ends } from './TrackEnds';
@@ -63,9 +65,9 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
           step="any"
           value={value}
           disabled={!entry.enabled}
-          aria-label={`${titleOf(entry.layer)}: amount`}
+          aria-label={t`${titleOf(entry.layer)}: amount`}
           aria-valuetext={text}
-          title="Double-click resets"
+          title={t`Double-click resets`}
           onPointerDown={interrupt}
           onInput={(event) => slide(entry.key, snapped(entry, event.currentTarget.valueAsNumber))}
           onChange={() => settle(entry.key)}
@@ -94,14 +96,23 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
           <TypedValue entry={entry} measure={measure} now={now} rest={rest} />
         </p>
       )}
-      {end !== null && <p class="quiet">Ends here: further on, {inWords(document.value, end)}.</p>}
+      {end !== null && <p class="quiet">{t`Ends here: further on, ${inWords(document.value, end)}.`}</p>}
       {stopped !== null && <p class="quiet stopped">{stopped}</p>}
     </div>
   );
 }
 
+const measureNames = {
+  width: m`width`,
+  height: m`height`,
+  depth: m`depth`,
+  count: m`count`,
+  spacing: m`spacing`,
+  distance: m`moved`,
+  angle: m`turned`,
+} as const;
 export const measureName = ({ part, what }: Measure) => {
-  const verb = what === 'distance' ? 'moved' : what === 'angle' ? 'turned' : what;
+  const verb = t(measureNames[what]);
   return part === null ? verb : `${nameOf(document.value, part)} ${verb}`;
 };
 
@@ -118,7 +129,7 @@ function readingOf(drawn: LayerEntry): Reading {
   step.value; // reads the evaluator below, which is no signal
   const entry = document.value.layers.find(({ key }) => key === drawn.key) ?? drawn;
   const value = sliderValue(entry);
-  const plain = { text: value.toFixed(2), measure: null, rest: 0, now: 0 };
+  const plain = { text: number(value, 2, 2), measure: null, rest: 0, now: 0 };
   const state = compiled.value;
   const shape = document.value.model?.shape;
   if (state.kind !== 'ready' || shape === undefined || !entry.enabled) return plain;
@@ -133,7 +144,7 @@ function readingOf(drawn: LayerEntry): Reading {
   const { unit } = document.value;
   const before = formatMeasure(measure.what, rest, larger(rest, now), unit);
   const after = formatMeasure(measure.what, now, larger(rest, now), unit);
-  return { text: `${measureName(measure)} ${before} to ${after}`, measure, rest, now };
+  return { text: t`${measureName(measure)} ${before} to ${after}`, measure, rest, now };
 }
 
 interface TypedValueProps {
@@ -160,9 +171,11 @@ function TypedValue({ entry, measure, now, rest }: TypedValueProps) {
     else void putAt(models.peek() as ModelCore, entry, measure, wanted).then((reached) => (ended.value = !reached));
   };
   const said = wrong.value
-    ? `Type a ${measure.what === 'count' ? 'number' : `number, such as ${formatMeasure(measure.what, now, like, unit)}`}.`
+    ? measure.what === 'count'
+      ? t`Type a number.`
+      : t`Type a number, such as ${formatMeasure(measure.what, now, like, unit)}.`
     : ended.value
-      ? 'The slider goes no further.'
+      ? t`The slider goes no further.`
       : null;
   return (
     <>
@@ -171,7 +184,7 @@ function TypedValue({ entry, measure, now, rest }: TypedValueProps) {
         type="text"
         inputMode="decimal"
         disabled={!entry.enabled}
-        aria-label={`${measureName(measure)}, type a value`}
+        aria-label={t`${measureName(measure)}, type a value`}
         aria-invalid={wrong.value}
         aria-describedby={said === null ? undefined : note}
         value={typed.value ?? formatMeasure(measure.what, now, like, unit)}

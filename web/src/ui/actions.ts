@@ -1,4 +1,5 @@
 // What buttons, keys and drops have in common: opening files, exporting, sharing.
+
 import { type ReadonlySignal, signal } from '@preact/signals';
 import { models } from '../session/core';
 import { isCut } from '../session/cuts';
@@ -17,6 +18,7 @@ import { document, family as families, run, say, selected } from '../session/ses
 import type { RunOptions } from '../session/tasks';
 import { fragmentOf } from '../share/link';
 import { readSavedText, save } from '../share/saved';
+import { m, t } from '../texts/texts';
 import { stage } from './view';
 
 export type DialogName = 'explore' | 'readings' | 'open' | 'share' | 'help' | 'text' | 'model' | 'print';
@@ -34,10 +36,10 @@ export function showText(key: number | null): void {
 export async function openAny(reading: Promise<FileSet>): Promise<boolean> {
   const core = models.peek();
   if (core === null) {
-    say('The core is still starting. Try again in a moment.', 'error');
+    say(t`The core is still starting. Try again in a moment.`, 'error');
     return false;
   }
-  const files = await run('Reading the files', async () => unpacked(await reading));
+  const files = await run(t`Reading the files`, async () => unpacked(await reading));
   if (files === null || files.size === 0) return false;
   const session = sessionOf(files);
   if (session === null) return openFiles(core, files);
@@ -74,16 +76,16 @@ export function exportProgram(): void {
 export async function exportOneFile(): Promise<void> {
   const core = models.peek();
   if (core === null || document.peek().model === null) return;
-  const glb = await run('Writing the file', () => oneFile(core, document.peek(), stage.peek()?.rig.pose));
+  const glb = await run(t`Writing the file`, () => oneFile(core, document.peek(), stage.peek()?.rig.pose));
   if (glb === null) return;
   download(`${editedName(modelName(), 'sliders')}.glb`, new Blob([glb as BlobPart], { type: 'model/gltf-binary' }));
   const { model } = document.peek();
-  if (model !== null && isCut(model.files)) say(uncut);
+  if (model !== null && isCut(model.files)) say(t(uncut));
 }
 
 /** The sliders alone, for a page that has the model. */
 export async function exportSliders(): Promise<void> {
-  const sliders = await run('Writing the file', async () => slidersOfWork(document.peek(), stage.peek()?.rig.pose));
+  const sliders = await run(t`Writing the file`, async () => slidersOfWork(document.peek(), stage.peek()?.rig.pose));
   if (sliders !== null) download(fileName('.sliders.json'), jsonBlob(sliders));
 }
 
@@ -112,7 +114,7 @@ export async function editedFile(kind: ExportKind, repair: boolean, options: Run
   options.signal.throwIfAborted();
   if (kind === 'animated') {
     const { warnings } = exported;
-    return { ...exported, warnings: isCut(model.files) ? [...warnings, uncut] : warnings };
+    return { ...exported, warnings: isCut(model.files) ? [...warnings, t(uncut)] : warnings };
   }
   if (!isCut(model.files)) return exported;
   const { family } = document.peek();
@@ -121,7 +123,7 @@ export async function editedFile(kind: ExportKind, repair: boolean, options: Run
   return { ...exported, glb: await cutExport(exported.glb, document.peek(), setting, options) };
 }
 
-const uncut = 'What is cut changes with the slider: in this file its parts are whole.';
+const uncut = m`What is cut changes with the slider: in this file its parts are whole.`;
 
 interface ExportChoice {
   /** Turned and sized as it is shown; else as its file was. */
@@ -135,7 +137,7 @@ export async function exportModel(
   { asItStands = false, repair = false }: ExportChoice = {},
 ): Promise<void> {
   const { model, unit } = document.peek();
-  const exported = await run('Writing the file', async (options) => {
+  const exported = await run(t`Writing the file`, async (options) => {
     const made = await editedFile(kind, repair !== false, options);
     if (made === null || model === null || asItStands) return made;
     const filling = repair === 'fill' ? await filledFile(made.glb, options) : { glb: made.glb, said: '' };

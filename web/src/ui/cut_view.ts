@@ -1,11 +1,13 @@
 // Cut parts on the stage: while sliders move, what was cut last follows its hexahedron, and it is cut anew as fast as that
 // goes; at rest it is what the program makes.
+
 import { effect, type ReadonlySignal, untracked } from '@preact/signals';
 import type { Evaluator } from '../program/compile';
 import type { Shape } from '../program/types';
 import type { Actor, Stage } from '../scene/stage';
 import { type Cutter, cutState, cutterOf, type PartCut } from '../session/cuts';
 import { document, family as families, restIsShown, say, step } from '../session/session';
+import { t } from '../texts/texts';
 
 /** Answers how to end it. */
 export function followCuts(
@@ -35,7 +37,7 @@ export function followCuts(
     if (cutter === null) return;
     cutter.onCuts = (cuts) => shown.peek() === model.shape && draw(cuts);
     cutter.onFailure = (reason) => {
-      if (!told.has(cutter)) say(`What is cut is not drawn as it is: ${reason}. Reload the page.`, 'error');
+      if (!told.has(cutter)) say(t`What is cut is not drawn as it is: ${reason}. Reload the page.`, 'error');
       told.add(cutter);
     };
     if (drawnBy !== actorOf() && cutter.latest !== null) draw(cutter.latest);

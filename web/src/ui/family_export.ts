@@ -1,8 +1,10 @@
 // A family as files that work without this page: an OpenSCAD program, and the parameter sets of its Customizer.
+
 import { models } from '../session/core';
 import { plainName } from '../session/download_names';
 import { shapeIds } from '../session/family_state';
 import { family as actions, document, run } from '../session/session';
+import { t } from '../texts/texts';
 import { download } from './actions';
 
 async function text() {
@@ -11,7 +13,7 @@ async function text() {
   const cad = model?.files.cad;
   if (core === null || model === null || family === undefined || cad === undefined) return null;
   const ids = shapeIds(cad, model.shape);
-  const made = await run('Writing the program', () =>
+  const made = await run(t`Writing the program`, () =>
     core.familyText({
       cad: cad.program,
       variations: family.variations,

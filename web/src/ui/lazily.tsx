@@ -1,7 +1,9 @@
 // Components that few visitors see: their code is fetched when they are shown for the first time.
+
 import { signal } from '@preact/signals';
 import type { ComponentType, VNode } from 'preact';
 import { useEffect } from 'preact/hooks';
+import { t } from '../texts/texts';
 
 /**
  * A component without properties, whose code `load` fetches. Until it is there a line says so, inside what `around` makes of it;
@@ -33,15 +35,15 @@ export function lazily(
     if (!failed.value) {
       return around(
         <p class="quiet" role="status">
-          Loading…
+          {t`Loading…`}
         </p>,
       );
     }
     return around(
       <p class="broken" role="alert">
-        This part of the page could not be fetched: is the network there?{' '}
+        {t`This part of the page could not be fetched: is the network there?`}{' '}
         <button type="button" class="quiet" onClick={fetchCode}>
-          Try again
+          {t`Try again`}
         </button>
       </p>,
     );

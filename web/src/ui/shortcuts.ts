@@ -1,4 +1,5 @@
 // Keys of the whole page, after Blender's where it has them. Fields keep their own keys.
+
 import { playing, playOn, stop } from '../session/play';
 import { cancelPull, pull } from '../session/pull';
 import { ruler, toggleRuler } from '../session/ruler';

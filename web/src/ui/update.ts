@@ -1,8 +1,10 @@
 // The service worker: it keeps the whole page, so that it works without a network, and brings newer versions. A newer one
 // waits until somebody asks for it; then only the page that asked reloads.
+
 import { signal } from '@preact/signals';
 import { autosave } from '../session/autosave';
 import { say } from '../session/session';
+import { t } from '../texts/texts';
 
 const checkEvery = 60 * 60 * 1000; // milliseconds, besides the check that browsers make at every visit
 
@@ -34,7 +36,7 @@ function follow(found: ServiceWorkerRegistration): void {
 /** Reloads into the newer version, with the work as it is. */
 export async function update(): Promise<void> {
   if (!(await autosave.saveNow())) {
-    say('This browser keeps no work over a reload. Save the session (Export), then reload the page.', 'error');
+    say(t`This browser keeps no work over a reload. Save the session (Export), then reload the page.`, 'error');
     return;
   }
   const waiting = registration?.waiting;

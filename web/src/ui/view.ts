@@ -1,4 +1,5 @@
 // The one stage of the page, and what the interface shows on it.
+
 import { effect, signal, untracked } from '@preact/signals';
 import type { Evaluator } from '../program/compile';
 import type { Shape } from '../program/types';
@@ -12,6 +13,7 @@ import { prefersReducedMotion } from '../session/play';
 import { pull } from '../session/pull';
 import { compiled, document, hovered, pointedAt, say, selected, selection, step } from '../session/session';
 import { realParts } from '../session/several';
+import { t } from '../texts/texts';
 import { followCuts } from './cut_view';
 import { theme } from './theme';
 
@@ -59,7 +61,7 @@ export function currentEvaluator(): Evaluator | null {
 export function mountStage(canvas: HTMLCanvasElement): () => void {
   const created = new Stage(canvas, prefersReducedMotion());
   created.onContext = (lost) =>
-    lost ? say('The graphics card was reset. The picture will be back in a moment; your work is kept.') : say('');
+    lost ? say(t`The graphics card was reset. The picture will be back in a moment; your work is kept.`) : say('');
   stage.value = created;
   const stops = [
     effect(() => created.setTheme(theme.value)),
@@ -98,7 +100,7 @@ async function showModel(on: Stage): Promise<void> {
   try {
     loaded = await takeLoaded(model.files);
   } catch (error) {
-    return say(`The model cannot be drawn: ${error instanceof Error ? error.message : String(error)}.`, 'error');
+    return say(t`The model cannot be drawn: ${error instanceof Error ? error.message : String(error)}.`, 'error');
   }
   if (document.peek().model !== model || stage.peek() !== on) return loaded.dispose();
   brightness.value = brightnessOf(loaded);

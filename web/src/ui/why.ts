@@ -1,5 +1,6 @@
 // "Why did this part move", "why did nothing happen": answers from the statements of the layers and, where propagation
 // ran on this page, from its trace.
+
 import { movedParts } from '../program/edited';
 import {
   isGroup,
@@ -15,6 +16,7 @@ import { titleOf } from '../session/layers';
 import { looseningOf } from '../session/loosening';
 import { formatMeasure, larger } from '../session/measure';
 import type { TraceStep } from '../session/trace';
+import { listed, plural, t } from '../texts/texts';
 import { capital, listWords, relationWords, statementWords, whyWords } from './words';
 
 /** A clause of the core's, with the names of parts in place of their ids. */
@@ -79,7 +81,7 @@ function whyInLayer(
   if (most && relation && step?.kind !== 'seed') {
     text.push(
       sentence(
-        `at rest, “${relationWords(document, relation, id)}” would be off by up to ${distance(document, most.by)}`,
+        t`at rest, “${relationWords(document, relation, id)}” would be off by up to ${distance(document, most.by)}`,
       ),
     );
   }
@@ -87,7 +89,7 @@ function whyInLayer(
     (lostId) => shape.relations.find((other) => other.id === lostId) ?? [],
   );
   if (lost.length > 0)
-    text.push(sentence(`given up for it: ${listWords(lost.map((other) => relationWords(document, other, id)))}`));
+    text.push(sentence(t`given up for it: ${listWords(lost.map((other) => relationWords(document, other, id)))}`));
   return { text, search: step ? searchWords(document, step) : '' };
 }
 
@@ -104,40 +106,44 @@ function statementsOn(shape: Shape, { statements }: Layer, id: string): readonly
 
 /** Why a part stays where it is. */
 function stillWords(document: Document, shape: Shape, layer: Layer, id: string, step: TraceStep | undefined): string {
-  if (step && step.kind === 'left_alone') return sentence(`stays: ${inWords(document, step.why)}`);
+  if (step && step.kind === 'left_alone') return sentence(t`stays: ${inWords(document, step.why)}`);
   const relations = shape.relations.filter(({ kind, parts }) => kind !== 'ground' && parts.includes(id));
-  if (relations.length === 0) return 'Stays: nothing is joined to it, and nothing mirrors it.';
+  if (relations.length === 0) return t`Stays: nothing is joined to it, and nothing mirrors it.`;
   const moved = movedParts(shape, layer.statements);
   const near = relations.filter(({ parts }) => parts.some((other) => other !== id && moved.has(other)));
-  if (near.length === 0) return 'Stays: no part that it is tied to is changed.';
+  if (near.length === 0) return t`Stays: no part that it is tied to is changed.`;
   const status = new Map(layer.relations.map((report) => [report.id, report.status]));
   // What has no report is said by another relation: of two rows that mirror each other, not each pair as well.
   const tied = near.filter((relation) => status.has(relation.id));
-  if (tied.length === 0) return 'Stays: no statement is about it.';
+  if (tied.length === 0) return t`Stays: no statement is about it.`;
   const lost = tied.filter((relation) => status.get(relation.id) !== 'held');
   if (lost.length > 0) {
     return sentence(
-      `stays, and this is given up: ${listWords(lost.map((other) => relationWords(document, other, id)))}`,
+      t`stays, and this is given up: ${listWords(lost.map((other) => relationWords(document, other, id)))}`,
     );
   }
   return sentence(
-    `stays: ${tied.length === 1 ? 'its one relation' : `all its ${tied.length} relations`} to changed parts ${tied.length === 1 ? 'holds' : 'hold'} without it`,
+    plural(
+      tied.length,
+      'stays: its one relation to changed parts holds without it',
+      'stays: all its {n} relations to changed parts hold without it',
+    ),
   );
 }
 
 function searchWords(document: Document, { candidates, survivors = 0, why }: TraceStep): string {
   const tried = candidates ? candidates.own + candidates.neighbour + candidates.pairs : 0;
   if (tried === 0) return '';
-  return `${tried} ways tried, ${survivors} fitted. ${sentence(inWords(document, why))}`;
+  return `${t`${tried} ways tried, ${survivors} fitted.`} ${sentence(inWords(document, why))}`;
 }
 
 /** Why nothing but the seed moves, in a sentence; null when something follows it. */
 export function whyNothingElse({ layer, trace }: LayerEntry): string | null {
   if (layer.statements.length === 0 || layer.statements.some(({ why }) => why?.kind !== 'seed')) return null;
   if (trace?.stop.startsWith('no relation ties'))
-    return 'Nothing else moves: no other part is joined to this one or mirrors it.';
+    return t`Nothing else moves: no other part is joined to this one or mirrors it.`;
   if (trace?.stop.startsWith('every part')) return null;
-  return 'Nothing else moves: all that is joined to it stays joined without.';
+  return t`Nothing else moves: all that is joined to it stays joined without.`;
 }
 
 /** "comes loose beyond +18 cm": where on the slider a relation gives way. */
@@ -150,7 +156,7 @@ export function brokenWords(
   const shape = document.model?.shape;
   const found = shape === undefined ? null : looseningOf(shape, layer, relation);
   const off = distance(document, worst);
-  if (found === null) return `comes apart by up to ${off}`;
+  if (found === null) return t`comes apart by up to ${off}`;
   const { below, above, rest, measure } = found;
   const at = (value: number | null) => {
     if (value === null) return [];
@@ -158,6 +164,8 @@ export function brokenWords(
     const amount = formatMeasure(measure.what, Math.abs(change), larger(rest, value), document.unit);
     return [`${change < 0 ? '−' : '+'}${amount}`];
   };
-  const verb = { reflection: 'no longer mirrored', ground: 'off the floor' }[relation.kind as string] ?? 'loose';
-  return `${verb} beyond ${[...at(below), ...at(above)].join(' and ')}, by up to ${off}`;
+  const where = listed([...at(below), ...at(above)]);
+  if (relation.kind === 'reflection') return t`no longer mirrored beyond ${where}, by up to ${off}`;
+  if (relation.kind === 'ground') return t`off the floor beyond ${where}, by up to ${off}`;
+  return t`loose beyond ${where}, by up to ${off}`;
 }

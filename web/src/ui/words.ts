@@ -15,21 +15,38 @@ import {
   type Statement,
   type Vec3,
 } from '../program/types';
-import { type Document, nameOf } from '../session/document';
+import { type Document, nameOf, type Side } from '../session/document';
 import { mostAlong } from '../session/measure';
+import { listed, m, plural, t } from '../texts/texts';
 
-const sides = [
-  ['right', 'left'],
-  ['bottom', 'top'],
-  ['back', 'front'],
+const faces = [
+  [m`right@face`, m`left@face`],
+  [m`bottom@face`, m`top@face`],
+  [m`back@face`, m`front@face`],
+] as const;
+/** "front", as a side of the object. */
+export const sideName = (side: Side | 'top' | 'bottom'): string => t(sideNames[side]);
+const sideNames = {
+  right: faces[0][0],
+  left: faces[0][1],
+  bottom: faces[1][0],
+  top: faces[1][1],
+  back: faces[2][0],
+  front: faces[2][1],
+} as const;
+/** Of an edge or a corner: "top left". */
+const places = [
+  [m`right@edge`, m`left@edge`],
+  [m`bottom@edge`, m`top@edge`],
+  [m`back@edge`, m`front@edge`],
 ] as const;
 const ways = [
-  ['to its right', 'to its left'],
-  ['down', 'up'],
-  ['backwards', 'forwards'],
+  [m`to its right`, m`to its left`],
+  [m`down@moves`, m`up@moves`],
+  [m`backwards`, m`forwards`],
 ] as const;
-export const axisWords = ['left–right', 'up–down', 'front–back'] as const;
-export const lengthWords = ['width', 'height', 'depth'] as const;
+export const axisWords = [m`left–right`, m`up–down`, m`front–back`] as const;
+export const lengthWords = [m`width`, m`height`, m`depth`] as const;
 const featureKinds = ['whole', 'face', 'edge', 'corner'] as const;
 export type FeatureKind = (typeof featureKinds)[number];
 
@@ -43,12 +60,22 @@ export const allFeatures: readonly LocalTriple[] = [-1, 0, 1]
 
 /** "top", "top left edge", "top front left corner"; "centre" for the whole. */
 export function featureWords(feature: LocalTriple): string {
+  const kind = featureKind(feature);
   const words = [1, 2, 0].flatMap((axis) => {
     const sign = feature[axis];
-    return sign ? [sides[axis]?.[sign < 0 ? 0 : 1] ?? ''] : [];
+    const word = sign && (kind === 'face' ? faces : places)[axis]?.[sign < 0 ? 0 : 1];
+    return word ? [t(word)] : [];
   });
-  const kind = featureKind(feature);
-  return kind === 'whole' ? 'centre' : kind === 'face' ? (words[0] ?? '') : `${words.join(' ')} ${kind}`;
+  switch (kind) {
+    case 'whole':
+      return t`centre`;
+    case 'face':
+      return words.join('');
+    case 'edge':
+      return t`${words.join(' ')} edge`;
+    case 'corner':
+      return t`${words.join(' ')} corner`;
+  }
 }
 
 function vectorOf(shape: Shape, reference: DirectionReference): Vec3 {
@@ -70,15 +97,15 @@ function falls(amount: string): boolean {
 /** "up", "to its left", "at an angle": the way in which a growing slider moves. */
 function wayWords(v: Vec3, amount: string): string {
   const axis = mostAlong(v);
-  const way = ways[axis]?.[v[axis] < 0 !== falls(amount) ? 0 : 1] ?? '';
-  return isStraight(v) ? way : `${way}, at an angle`;
+  const way = t(ways[axis][v[axis] < 0 !== falls(amount) ? 0 : 1]);
+  return isStraight(v) ? way : t`${way}, at an angle`;
 }
 
 function fromWords(document: Document, part: string, origin: PointReference): string {
   if (!('part' in origin)) return '';
   const at = featureWords(origin.at);
-  if (origin.part === part) return at === 'centre' ? 'about its centre' : `from its ${at}`;
-  return `about the ${at} of ${nameOf(document, origin.part)}`;
+  if (origin.part === part) return featureKind(origin.at) === 'whole' ? t`about its centre` : t`from its ${at}`;
+  return t`about the ${at} of ${nameOf(document, origin.part)}`;
 }
 
 export const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
@@ -90,33 +117,34 @@ export function statementWords(document: Document, statement: Statement): string
   if ('relation' in statement) {
     const relation = groupOf(document, statement.relation);
     const group = relation ? nameOf(document, relation.parent) : statement.relation;
-    if (statement.op === 'change_delta') return `${capital(group)}: the spacing changes`;
-    const how = statement.anchor === 'fit' ? 'within the same space' : 'with the same spacing';
-    return `${capital(group)}: more or fewer, ${how}`;
+    if (statement.op === 'change_delta') return t`${capital(group)}: the spacing changes`;
+    return statement.anchor === 'fit'
+      ? t`${capital(group)}: more or fewer, within the same space`
+      : t`${capital(group)}: more or fewer, with the same spacing`;
   }
   const part = nameOf(document, statement.part);
-  if (statement.op === 'keep_fixed') return `${capital(part)} stays as it is`;
+  if (statement.op === 'keep_fixed') return t`${capital(part)} stays as it is`;
   const kind = featureKind(statement.feature);
-  const what = kind === 'whole' ? capital(part) : `${capital(featureWords(statement.feature))} of ${part}`;
+  const what = kind === 'whole' ? capital(part) : t`${capital(featureWords(statement.feature))} of ${part}`;
   switch (statement.op) {
     case 'translate':
-      return `${what} moves ${wayWords(vectorOf(shape, statement.direction), statement.amount)}`;
+      return t`${what} moves ${wayWords(vectorOf(shape, statement.direction), statement.amount)}`;
     case 'rotate': {
-      const axis = axisWords[mostAlong(vectorOf(shape, statement.axis))];
-      return `${what} tilts about its ${axis} axis, ${fromWords(document, statement.part, statement.origin)}`;
+      const axis = t(axisWords[mostAlong(vectorOf(shape, statement.axis))]);
+      return t`${what} tilts about its ${axis} axis, ${fromWords(document, statement.part, statement.origin)}`;
     }
     case 'scale_1d': {
-      const along = axisWords[mostAlong(vectorOf(shape, statement.direction))];
-      return `${what} stretches ${along}, ${fromWords(document, statement.part, statement.origin)}`;
+      const along = t(axisWords[mostAlong(vectorOf(shape, statement.direction))]);
+      return t`${what} stretches ${along}, ${fromWords(document, statement.part, statement.origin)}`;
     }
     case 'scale_2d': {
-      const across = axisWords[mostAlong(vectorOf(shape, statement.normal))];
-      return `${what} grows in both directions across ${across}`;
+      const across = t(axisWords[mostAlong(vectorOf(shape, statement.normal))]);
+      return t`${what} grows in both directions across ${across}`;
     }
     case 'scale_3d':
-      return `${what} grows in all directions, ${fromWords(document, statement.part, statement.origin)}`;
+      return t`${what} grows in all directions, ${fromWords(document, statement.part, statement.origin)}`;
     case 'shear':
-      return `${what} slants ${wayWords(vectorOf(shape, statement.direction), statement.amount)}`;
+      return t`${what} slants ${wayWords(vectorOf(shape, statement.direction), statement.amount)}`;
   }
 }
 
@@ -149,46 +177,46 @@ export function whyWords(document: Document, statement: Statement): string {
   const list = listWords(others);
   switch (why.kind) {
     case 'seed':
-      return 'this is what was asked for';
+      return t`this is what was asked for`;
     case 'symmetry':
-      return list ? `mirrors ${list}` : 'keeps the symmetry';
+      return list ? t`mirrors ${list}` : t`keeps the symmetry`;
     case 'attachment':
-      return list ? `stays joined to ${list}` : 'stays joined';
+      return list ? t`stays joined to ${list}` : t`stays joined`;
     case 'neighbour':
-      return list ? `follows ${list}` : 'follows its neighbours';
+      return list ? t`follows ${list}` : t`follows its neighbours`;
     case 'breaking':
-      return 'nothing fits all its relations; this gives up the fewest';
+      return t`nothing fits all its relations; this gives up the fewest`;
     case 'group':
-      return 'part of its row';
+      return t`part of its row`;
   }
 }
 
 export function listWords(names: readonly string[], most = 3, count = names.length): string {
   const shown = names.slice(0, most);
   const rest = count - shown.length;
-  if (rest > 0) return `${shown.join(', ')} and ${rest} more`;
-  const last = shown.pop();
-  return shown.length > 0 ? `${shown.join(', ')} and ${last}` : (last ?? '');
+  if (rest > 0) return t`${shown.join(', ')} and ${rest} more`;
+  return listed(shown);
 }
 
-const joints = { point: 'at a point', line: 'along a line', face: 'by a face', volume: 'inside' } as const;
+const joints = { point: m`at a point`, line: m`along a line`, face: m`by a face`, volume: m`inside@joint` } as const;
 
 /** "by a face"; empty for what is no joint. */
 export const jointWords = ({ kind }: ShapeRelation): string =>
-  kind in joints ? joints[kind as keyof typeof joints] : '';
+  kind in joints ? t(joints[kind as keyof typeof joints]) : '';
 
 /** @param from reads the relation from this part's side: "joined to front left leg at a point" */
 export function relationWords(document: Document, relation: ShapeRelation, from?: string): string {
   const [a = '', b = ''] = relation.parts.map((id) => nameOf(document, id));
   const other = from !== undefined && from === relation.parts[1] ? a : b;
-  if (relation.kind === 'ground') return from === undefined ? `${a} stands on the floor` : 'stands on the floor';
-  if (relation.kind === 'reflection') return from === undefined ? `${a} mirrors ${b}` : `mirrors ${other}`;
+  if (relation.kind === 'ground') return from === undefined ? t`${a} stands on the floor` : t`stands on the floor`;
+  if (relation.kind === 'reflection') return from === undefined ? t`${a} mirrors ${b}` : t`mirrors ${other}`;
   if (isGroup(relation)) {
     const group = nameOf(document, relation.parent);
-    return `${group}: ${relation.parts.length} ${relation.kind === 'translation' ? 'evenly spaced' : 'in a ring'}`;
+    const { length } = relation.parts;
+    return relation.kind === 'translation' ? t`${group}: ${length} evenly spaced` : t`${group}: ${length} in a ring`;
   }
-  if (from !== undefined) return `joined to ${other} ${joints[relation.kind]}`;
-  return `${a} and ${b} joined ${joints[relation.kind]}`;
+  if (from !== undefined) return t`joined to ${other} ${t(joints[relation.kind])}`;
+  return t`${a} and ${b} joined ${t(joints[relation.kind])}`;
 }
 
 /** "keeps 23 of 24 relations at every position". */
@@ -196,18 +224,22 @@ export function keptWords(reports: readonly RelationReport[]): string {
   const counted = reports.filter(({ status }) => status !== 'disabled');
   const held = counted.filter(({ status }) => status === 'held');
   if (counted.length === 0) return '';
-  const all = held.length === counted.length;
-  if (all && held.length === 1) return 'keeps its one relation at every position';
-  const kept = all ? `all ${held.length}` : `${held.length} of ${counted.length}`;
-  return `keeps ${kept} ${counted.length === 1 ? 'relation' : 'relations'} at every position`;
+  if (held.length === counted.length)
+    return plural(held.length, 'keeps its one relation at every position', 'keeps all {n} relations at every position');
+  return plural(
+    counted.length,
+    'keeps {0} of {n} relation at every position',
+    'keeps {0} of {n} relations at every position',
+    held.length,
+  );
 }
 
 export const hintWords = {
-  translate: 'should move',
-  rotate: 'should tilt',
-  scale: 'should stretch',
-  shear: 'should slant',
-  change_count: 'should change its count',
-  change_delta: 'should change its spacing',
-  keep_fixed: 'should stay',
+  translate: m`should move`,
+  rotate: m`should tilt`,
+  scale: m`should stretch`,
+  shear: m`should slant`,
+  change_count: m`should change its count`,
+  change_delta: m`should change its spacing`,
+  keep_fixed: m`should stay`,
 } as const;
