@@ -213,8 +213,8 @@ class Loop : public Attempt {
     }
   }
 
-  /// The unedited part with the most broken relations; one with a hint before any without, then one with a broken
-  /// symmetry.
+  /// The unedited part with the most broken relations; one with a broken symmetry before any without, then one
+  /// with a hint.
   std::optional<PartIndex> next_part() const {
     std::optional<PartIndex> best;
     using Urgency = std::tuple<bool, bool, int>;  // as in search.cpp
@@ -231,7 +231,7 @@ class Loop : public Attempt {
         ++count;
       }
       if (count == 0) continue;
-      const Urgency broken{request_.hints.count(part) > 0, mirror, count};
+      const Urgency broken{mirror, request_.hints.count(part) > 0, count};
       if (!best || broken > most || (broken == most && id(part) < id(*best))) {
         best = part;
         most = broken;

@@ -13,7 +13,7 @@ namespace {
 
 using Pulls = std::vector<PointConstraint>;
 
-/// A hint says what the part is to do; a broken mirror image side by side; number of broken relations.
+/// A broken mirror image side by side; a hint says what the part is to do; number of broken relations.
 using Urgency = std::tuple<bool, bool, int>;
 
 struct LeftAlone {
@@ -110,7 +110,7 @@ class Beam {
         mirror = mirror || is_side_by_side(index);
         ++broken;
       }
-      state.urgency[other] = {hints_.count(other) > 0, mirror, broken};
+      state.urgency[other] = {mirror, hints_.count(other) > 0, broken};
       state.pulls[other] = std::move(pulls);
     }
   }

@@ -2,7 +2,7 @@
 // 2, whose loop is the beam of width 1.
 //
 // A state holds the edits found so far. Every round takes, in each state, the unedited part with the most broken
-// relations (one that has a hint first, then a broken mirror image side by side; ties by id), and continues the
+// relations (one with a broken mirror image side by side first, then one that has a hint; ties by id), and continues the
 // state by the cheapest proposals for it (solve_part.h). The cheapest states are kept. Costs only grow, so what is
 // dearer than a finished state is dropped.
 #pragma once
