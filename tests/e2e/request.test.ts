@@ -168,7 +168,7 @@ describe.each(['openai', 'anthropic', 'gemini'] as const)('%s from the page', (p
     const { page, complaints } = await ready(protocol);
     providers.behave(() => ({ kind: 'reply', text: 'ready' }));
     await page.getByRole('button', { name: 'Test this key' }).click();
-    await page.getByText(/It answered in .* for 1200 tokens/).waitFor();
+    await page.getByText(/It answered in .* for 1,200 tokens/).waitFor();
     await page.getByRole('button', { name: 'List models' }).click();
     await page.getByText(/1 models/).waitFor();
     await done(page);

@@ -136,7 +136,7 @@ describe('the cage on the graphics card', () => {
     const wide = await stillPicture(page);
     await page.evaluate((key) => parsel.slide(key, 0), keys[0] as number);
     expect(wide.equals(before)).toBe(false);
-    expect((await stillPicture(page)).equals(before)).toBe(true);
+    await expect.poll(async () => changedShare(before, await stillPicture(page))).toBeLessThan(1e-4);
   });
 
   it('picks deformed parts and instances by what is drawn', async () => {
@@ -208,6 +208,7 @@ describe('the cage on the graphics card', () => {
       return pixels;
     };
     const plain = await picture(null);
+    // What lies over the canvas may still say that it looks for something; a model that is not drawn is much more.
     for (const name of [
       'hostile /* dark',
       'hostile\n#error hostile',
@@ -215,7 +216,7 @@ describe('the cage on the graphics card', () => {
       'hostile \\',
       'hostile */ #define main hostile',
     ])
-      expect((await picture(name)).equals(plain), JSON.stringify(name)).toBe(true);
+      expect(await changedShare(plain, await picture(name)), JSON.stringify(name)).toBeLessThan(5e-3);
   });
 
   it('survives the loss of the graphics context', async () => {
