@@ -4,7 +4,7 @@ import type { Page } from 'playwright-core';
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { readRecordings, renderKinds } from '../../web/tools/prompts.mjs';
-import { call, loadModule } from '../web/module';
+import { call, loadWithCad } from '../web/module';
 import { serious } from './axe';
 import { openPage, useProviders, useSite, withoutGallery } from './harness';
 
@@ -75,7 +75,7 @@ async function useKey(page: Page): Promise<void> {
 
 describe('with a key', () => {
   it('kinds stream in, can be stopped and tried again, and one of your own is drawn', async () => {
-    const module = await loadModule();
+    const module = await loadWithCad();
     const recordings = readRecordings();
     const core = (method: string, parameters: unknown, buffers?: Uint8Array[]) =>
       call<unknown>(module, method, parameters, buffers);
