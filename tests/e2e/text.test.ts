@@ -21,7 +21,7 @@ beforeEach(async () => {
   await page.locator('.card').nth(2).waitFor();
 });
 
-const text = () => page.getByLabel('Program', { exact: true });
+const text = () => page.getByRole('textbox', { name: 'Program', exact: true });
 async function show(card: number): Promise<void> {
   await page.locator('.card').nth(card).getByRole('button', { name: 'More about' }).click();
   await page.getByRole('menuitem', { name: 'Show as text' }).click();
