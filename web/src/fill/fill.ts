@@ -1,3 +1,4 @@
+import { disjointSets } from '../solid/weld';
 // Gaps that an edit has opened, filled (ParSEL, supplement §3.4): Poisson-disk samples around each gap, without what faced
 // across it; screened Poisson reconstruction, which closes over what is missing; of its surface that which spans the gap,
 // decimated by quadrics. Each new triangle belongs to the part that is nearer, and what its corners have besides places is
@@ -5,6 +6,7 @@
 //
 // Unlike the paper, which builds everything anew, all that there was stays as it is: materials suffer, says the paper, and so
 // do edges. A gap is left where the reconstruction does not reach from one part to the other.
+
 import { MeshoptSimplifier } from 'meshoptimizer';
 import { boundsOf, type Contact, type Parts, relative } from './gap';
 import { PointGrid } from './points';
@@ -132,17 +134,9 @@ function span(
     if (own.some((i) => holder[i] === -1) && own.every((i) => between[i])) fresh.push(...own);
   }
   // Pieces that hang together, and the parts that hold them.
-  const root = Int32Array.from({ length: count }, (_, i) => i);
-  const find = (i: number) => {
-    let at = i;
-    while (root[at] !== at) {
-      root[at] = root[root[at] as number] as number;
-      at = root[at] as number;
-    }
-    return at;
-  };
+  const { find, join } = disjointSets(count);
   for (let t = 0; t < fresh.length; t += 3) {
-    for (let k = 1; k < 3; k++) root[find(fresh[t + k] as number)] = find(fresh[t] as number);
+    for (let k = 1; k < 3; k++) join(fresh[t + k] as number, fresh[t] as number);
   }
   const held = new Map<number, Set<number>>();
   for (const i of fresh) {

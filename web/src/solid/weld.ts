@@ -107,18 +107,10 @@ export function shells({ positions, triangles }: Welded): Triangles[] {
     }
   }
   const groups = (most: number): Uint32Array[] => {
-    const root = Uint32Array.from({ length: count }, (_, t) => t);
-    const find = (t: number) => {
-      let at = t;
-      while (root[at] !== at) {
-        root[at] = root[root[at] as number] as number;
-        at = root[at] as number;
-      }
-      return at;
-    };
+    const { find, join } = disjointSets(count);
     for (const there of atEdge.values()) {
       if (there.length > most) continue;
-      for (const t of there) root[find(t)] = find(there[0] as number);
+      for (const t of there) join(t, there[0] as number);
     }
     const found = new Map<number, number[]>();
     for (let t = 0; t < count; t++) {
@@ -183,4 +175,23 @@ export function turnedOver(triangles: Uint32Array): Uint32Array {
     turned[i + 2] = triangles[i + 1] as number;
   }
   return turned;
+}
+
+/** Sets of the numbers 0 … count − 1, each alone at first (Tarjan 1975, with path halving). */
+export function disjointSets(count: number) {
+  const root = Uint32Array.from({ length: count }, (_, i) => i);
+  /** The number that stands for the set of i. */
+  const find = (i: number): number => {
+    let at = i;
+    while (root[at] !== at) {
+      root[at] = root[root[at] as number] as number;
+      at = root[at] as number;
+    }
+    return at;
+  };
+  /** Unites the two sets; that of `into` gives the number that stands for both. */
+  const join = (i: number, into: number): void => {
+    root[find(i)] = find(into);
+  };
+  return { find, join };
 }
