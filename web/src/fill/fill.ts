@@ -1,4 +1,3 @@
-import { disjointSets } from '../solid/weld';
 // Gaps that an edit has opened, filled (ParSEL, supplement §3.4): Poisson-disk samples around each gap, without what faced
 // across it; screened Poisson reconstruction, which closes over what is missing; of its surface that which spans the gap,
 // decimated by quadrics. Each new triangle belongs to the part that is nearer, and what its corners have besides places is
@@ -6,8 +5,8 @@ import { disjointSets } from '../solid/weld';
 //
 // Unlike the paper, which builds everything anew, all that there was stays as it is: materials suffer, says the paper, and so
 // do edges. A gap is left where the reconstruction does not reach from one part to the other.
-
 import { MeshoptSimplifier } from 'meshoptimizer';
+import { disjointSets } from '../solid/weld';
 import { boundsOf, type Contact, type Parts, relative } from './gap';
 import { PointGrid } from './points';
 import { type Box, diskSamples, type Sample } from './samples';
