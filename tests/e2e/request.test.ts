@@ -170,7 +170,7 @@ describe.each(['openai', 'anthropic', 'gemini'] as const)('%s from the page', (p
     await page.getByRole('button', { name: 'Test this key' }).click();
     await page.getByText(/It answered in .* for 1,200 tokens/).waitFor();
     await page.getByRole('button', { name: 'List models' }).click();
-    await page.getByText(/1 models/).waitFor();
+    await page.getByText('1 model: choose it in the field above.').waitFor();
     await done(page);
 
     answering([widenSeat]);

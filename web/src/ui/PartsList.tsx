@@ -38,10 +38,12 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
   const rows = partRows(parts, { query: query.value, nameOf: named, isOpen: holds });
   const isLong = parts.length > mostShort;
   const [first, end] = rowsInSight(rows.length, rowHeight, scrolled.value, list.current?.clientHeight || 600);
-  const active = Math.max(
-    0,
-    rows.findIndex(({ part }) => part.id === at.value),
-  );
+  const indexOf = (id: string) =>
+    Math.max(
+      0,
+      rows.findIndex(({ part }) => part.id === id),
+    );
+  const active = indexOf(at.value);
 
   const show = (index: number) => {
     const element = list.current;
@@ -55,9 +57,10 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
   const moveTo = (index: number, extend: boolean) => {
     const row = rows[Math.max(0, Math.min(rows.length - 1, index))];
     if (row === undefined) return;
+    const from = rows[indexOf(at.peek())] ?? row;
     at.value = row.part.id;
     show(rows.indexOf(row));
-    if (extend) selectRange(rows, selection.peek()?.part ?? rows[active]?.part.id ?? row.part.id, row.part.id);
+    if (extend) selectRange(rows, selection.peek()?.part ?? from.part.id, row.part.id);
     // The row may only be drawn now that the list has scrolled.
     requestAnimationFrame(() => list.current?.querySelector<HTMLElement>('.name[tabindex="0"]')?.focus());
   };
@@ -69,19 +72,21 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
   };
   const onKeyDown = (event: KeyboardEvent) => {
     if ((event.target as Element).matches('input')) return;
-    const row = rows[active];
-    const to = { ArrowDown: active + 1, ArrowUp: active - 1, Home: 0, End: rows.length - 1 }[event.key];
+    // Keys may come faster than the list is drawn.
+    const from = indexOf(at.peek());
+    const row = rows[from];
+    const to = { ArrowDown: from + 1, ArrowUp: from - 1, Home: 0, End: rows.length - 1 }[event.key];
     if (to !== undefined) moveTo(to, event.shiftKey);
     else if (event.key === 'ArrowRight' && row?.open === false) fold(row.part, true);
     else if (event.key === 'ArrowLeft' && row?.open) fold(row.part, false);
     else return;
     event.preventDefault();
   };
-  // What is selected in the view is brought into sight here.
+  // What is selected in the view is brought into sight here; what was selected here leaves the keyboard where it is.
   const shown = selection.value?.part;
   useEffect(() => {
     const index = rows.findIndex(({ part }) => part.id === shown);
-    if (index < 0) return;
+    if (index < 0 || selected.peek().includes(at.peek())) return;
     at.value = shown ?? '';
     show(index);
   }, [shown]);
