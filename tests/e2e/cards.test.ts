@@ -1,11 +1,10 @@
 // Cards together: compared with the model as it was, reset, kept under names, folded, grouped, copied, reopened.
 import type { Page } from 'playwright-core';
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { program, stool } from './fixture';
-import { openModel, outputFolder, useSite } from './harness';
+import { addEdits, openInstead, outputFolder, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -14,11 +13,9 @@ const site = useSite();
 let page: Page;
 let complaints: string[];
 beforeEach(async () => {
-  await page?.context().close();
-  ({ page, complaints } = await openModel(site.browser, site.url, stool));
-  const shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
-  await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
-  await page.locator('.card').nth(2).waitFor();
+  const opened = await openInstead(page, site, stool);
+  ({ page, complaints } = opened);
+  await addEdits(page, program(opened.shape));
 });
 
 const values = () => page.evaluate(() => parsel.document().layers.map(({ value }) => value));

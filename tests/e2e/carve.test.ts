@@ -4,8 +4,9 @@ import { WebIO } from '@gltf-transform/core';
 import type { BrowserContext, Page } from 'playwright-core';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
+import { toGlb } from '../../web/tools/glb.mjs';
 import { serious } from './axe';
-import { stool, stoolGltf, toGlb } from './fixture';
+import { stool, stoolGltf } from './fixture';
 import { openModel, outputFolder, saved, useSite } from './harness';
 import { tableInOnePiece } from './one_mesh';
 

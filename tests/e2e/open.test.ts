@@ -7,8 +7,9 @@ import { zipSync } from 'fflate';
 import type { Page } from 'playwright-core';
 import { beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
+import { type Gltf, toGlb } from '../../web/tools/glb.mjs';
 import { compress } from '../web/compressed';
-import { type Gltf, stool, stoolGltf, toGlb } from './fixture';
+import { stool, stoolGltf } from './fixture';
 import { drop, openModel, openPage, pick, useSite, withGalleryOf, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;

@@ -3,7 +3,8 @@ import type { AddressInfo } from 'node:net';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
-import { stool, stoolGltf, toGlb } from './fixture';
+import { toGlb } from '../../web/tools/glb.mjs';
+import { stool, stoolGltf } from './fixture';
 import { openModel, openPage, outputFolder, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;

@@ -4,7 +4,7 @@ import { describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { stool } from './fixture';
-import { openModel, outputFolder, useProviders, useSite } from './harness';
+import { openModel, outputFolder, useKey, useProviders, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -157,12 +157,7 @@ describe('a model of one’s own, without a key', () => {
 describe('with a key', () => {
   it('what is sure costs nothing, and a language model can be asked instead', async () => {
     const { page, complaints } = await openModel(site.browser, site.url, stool);
-    await page.getByRole('button', { name: /^Language model/ }).click();
-    await page.getByLabel('Provider').selectOption('openai');
-    await page.getByLabel('Base URL').fill(providers.base('openai'));
-    await page.getByLabel('Base URL').press('Tab');
-    await page.getByLabel('Key', { exact: true }).fill('sk-secret');
-    await page.getByLabel('Model', { exact: true }).fill('tester');
+    await useKey(page, 'openai', providers.base('openai'), 5);
     await page.getByRole('button', { name: 'Done' }).click();
     const answer = {
       edits: [{ op: 'translate', part: 'seat', direction: [0, 1, 0], amount: 'x' }],

@@ -6,8 +6,9 @@ import { type CheckedProgram, checkProgram } from '../../web/src/program/check';
 import { interpretProgram } from '../../web/src/program/interpret';
 import type { Corners, Shape, Vec3 } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
-import { program, stool, stoolGltf, toGlb, verticesOf } from './fixture';
-import { openModel, openPage, outputFolder, pick, stillPicture, useSite, withoutGallery } from './harness';
+import { toGlb } from '../../web/tools/glb.mjs';
+import { program, stool, stoolGltf, verticesOf } from './fixture';
+import { openModel, openPage, outputFolder, pick, shapeOf, stillPicture, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -20,7 +21,7 @@ let checked: CheckedProgram;
 let keys: readonly number[];
 beforeAll(async () => {
   ({ page, complaints } = await openModel(site.browser, site.url, stool, { reducedMotion: 'reduce' }));
-  shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
+  shape = await shapeOf(page);
   const result = checkProgram(program(shape), shape);
   if (!result.ok) throw new Error(result.error.cause);
   checked = result.value;

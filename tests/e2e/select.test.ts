@@ -5,7 +5,7 @@ import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { stool } from './fixture';
-import { openModel, outputFolder, useSite } from './harness';
+import { openModel, outputFolder, shapeOf, useSite } from './harness';
 import { wall } from './wall';
 
 declare const parsel: DebugHandle;
@@ -18,7 +18,7 @@ let shape: Shape;
 async function open(model: Buffer, options: Parameters<typeof openModel>[3] = {}): Promise<void> {
   await page?.context().close();
   ({ page, complaints } = await openModel(site.browser, site.url, model, options));
-  shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
+  shape = await shapeOf(page);
 }
 
 const selected = () => page.evaluate(() => [...parsel.selected()]);

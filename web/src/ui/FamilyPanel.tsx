@@ -84,7 +84,7 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
   ];
   return (
     <section aria-label={t`Variations`}>
-      <ul class="strip">
+      <ul class="variations">
         {entries.map(({ name, setting }, i) => (
           <li key={name}>
             <button
