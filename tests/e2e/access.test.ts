@@ -70,7 +70,6 @@ describe.each([
     const found: string[] = [];
     for (const [name, enter] of states) {
       await enter();
-      await page.waitForTimeout(200);
       found.push(...(await serious(page)).map((text) => `${name}: ${text}`));
       await page.screenshot({ path: `${outputFolder}/${name}-${colorScheme}-${viewport.width}.png` });
       if (!['main', 'hand', 'selected', 'apart'].includes(name)) await page.keyboard.press('Escape');

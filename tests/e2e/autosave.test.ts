@@ -93,7 +93,7 @@ describe('the work of a tab', () => {
   });
 });
 
-describe('seven tabs', { timeout: 240_000 }, () => {
+describe('seven tabs', () => {
   const names = Array.from({ length: 7 }, (_, i) => `model-${i}`);
 
   /** One with each model. The first is the page of the test. */

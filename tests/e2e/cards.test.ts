@@ -102,7 +102,7 @@ describe('a count', () => {
     await page.evaluate(() => parsel.client()); // the core has started
     await page.getByLabel('What to change').fill('two more slats');
     await page.getByLabel('What to change').press('Enter');
-    await page.locator('.card').nth(3).waitFor({ timeout: 60_000 });
+    await page.locator('.card').nth(3).waitFor();
     const anchor = () =>
       page.evaluate(() => {
         const seed = parsel.document().layers[3]?.layer.statements.find(({ why }) => why?.kind === 'seed');
@@ -111,14 +111,14 @@ describe('a count', () => {
     expect(await anchor()).toBe('fit');
     const own = page.locator('.card').nth(3);
     await own.getByRole('button', { name: /^Keep the spacing instead/ }).click();
-    await own.getByRole('button', { name: /^Keep the room instead/ }).waitFor({ timeout: 60_000 });
+    await own.getByRole('button', { name: /^Keep the room instead/ }).waitFor();
     expect(await anchor()).toBe('middle');
     await page.getByRole('button', { name: 'Undo: change edit' }).click();
     expect(await anchor()).toBe('fit');
     await menu('two more slats', 'Change…');
     await page.getByLabel('Change the edit').getByRole('radio', { name: 'Spacing' }).check({ force: true });
     await page.getByLabel('Change the edit').getByRole('button', { name: 'Apply' }).click();
-    await page.getByRole('button', { name: 'Undo: change edit' }).waitFor({ timeout: 60_000 });
+    await page.getByRole('button', { name: 'Undo: change edit' }).waitFor();
     expect(await anchor()).toBeNull();
     expect(await page.evaluate(() => parsel.document().layers[3]?.layer.request)).toBe('two more slats');
     expect(complaints).toEqual([]);

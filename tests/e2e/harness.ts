@@ -162,6 +162,7 @@ export async function openPage(
     serviceWorkers: 'block', // it would answer what tests answer for the server
     ...options,
   });
+  context.setDefaultTimeout(60_000); // as in web/vitest.e2e.config.ts
   await prepare(context);
   const page = await context.newPage();
   const complaints: string[] = [];
@@ -276,6 +277,23 @@ export async function download(page: Page, item: string): Promise<string> {
   const path = `${outputFolder}/${event.suggestedFilename()}`;
   await event.saveAs(path);
   return path;
+}
+
+/** Until what the style sheets move has arrived: nothing fades or slides in any more. What turns for ever does not count. */
+export async function settled(page: Page): Promise<void> {
+  await page.evaluate(async () => {
+    const frame = () => new Promise(requestAnimationFrame);
+    for (;;) {
+      // A frame for what has been clicked to be shown, and one for its transitions to begin.
+      await frame();
+      await frame();
+      const passing = document
+        .getAnimations()
+        .filter(({ playState, effect }) => playState === 'running' && effect?.getComputedTiming().endTime !== Infinity);
+      if (passing.length === 0) return;
+      await Promise.allSettled(passing.map(({ finished }) => finished));
+    }
+  });
 }
 
 /** The canvas once nothing moves any more. */

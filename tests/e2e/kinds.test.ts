@@ -35,7 +35,7 @@ describe('suggested kinds', () => {
   it('come in as six cards with pictures, without a key', async () => {
     await page.getByRole('button', { name: 'Suggest kinds' }).click();
     await expect.poll(() => cards().count()).toBe(6);
-    await expect.poll(() => cards().locator('img').count(), { timeout: 30_000 }).toBe(6);
+    await expect.poll(() => cards().locator('img').count()).toBe(6);
     await page.getByText('6 drawn · recorded answers').waitFor();
     expect(await cards().first().textContent()).toContain('answers name it');
     await page.getByText('Also named').click();

@@ -67,9 +67,7 @@ describe('a newer version', () => {
   const notice = (page: Page) =>
     expect.poll(() => page.locator('.status-line').getByRole('status').textContent()).toMatch(/new version is ready/);
 
-  it('is announced in every page, and comes with the work as it is, only where it is asked for', {
-    timeout: 240_000,
-  }, async () => {
+  it('is announced in every page, and comes with the work as it is, only where it is asked for', async () => {
     const folder = await mkdtemp(join(tmpdir(), 'parsel-build-'));
     await cp(dist, folder, { recursive: true });
     const { url, server } = await serve(folder);

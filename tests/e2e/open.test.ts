@@ -166,7 +166,7 @@ describe('what cannot be opened', () => {
     ],
   ])('is refused by name: %s', async (_, name, content, sentence) => {
     await pick(page, [file(name, content())]);
-    await expect.poll(() => page.getByRole('alert').textContent(), { timeout: 20_000 }).toMatch(sentence);
+    await expect.poll(() => page.getByRole('alert').textContent()).toMatch(sentence);
     expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('stool');
     expect(await parts()).toBe(11);
     expect(complaints).toEqual([]);

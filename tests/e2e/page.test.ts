@@ -116,7 +116,7 @@ describe('on a phone', () => {
     await tab.tap();
     await hand.waitFor({ state: 'detached' });
     await page.screenshot({ path: `${outputFolder}/phone-folded.png` });
-    await tab.tap({ timeout: 5000 }); // Playwright refuses when something lies over it
+    await tab.tap(); // Playwright refuses when something lies over it
     await hand.waitFor();
     await page.screenshot({ path: `${outputFolder}/phone-unfolded.png` });
     await page.context().close();

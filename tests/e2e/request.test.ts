@@ -476,7 +476,6 @@ describe.each([
     const { page } = await ready('openai', { colorScheme, viewport, votes: 2 });
     const found: string[] = [];
     const look = async (name: string) => {
-      await page.waitForTimeout(300);
       found.push(...(await serious(page)).map((text) => `${name}: ${text}`));
       await page.screenshot({
         path: `${outputFolder}/request-${name}-${colorScheme}-${viewport.width}.png`,

@@ -123,7 +123,8 @@ describe('several parts', () => {
     await page.locator('.part .name').first().focus();
     await page.keyboard.press('Shift+ArrowDown');
     // As slow as people are: the view has followed the selection by then.
-    await page.waitForTimeout(300);
+    await expect.poll(async () => (await selected()).length).toBe(2);
+    await page.waitForFunction(() => parsel.stage()?.isStill());
     await page.keyboard.press('Shift+ArrowDown');
     await expect.poll(async () => (await selected()).length).toBe(3);
     expect(await page.locator('.parts [tabindex="0"]').count()).toBeLessThanOrEqual(3);
