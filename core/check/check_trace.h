@@ -3,9 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "core/check/report.h"
-#include "core/edit/program.h"
-#include "core/shape/shape.h"
+#include "core/check/check.h"
 
 namespace parsel::replay {
 

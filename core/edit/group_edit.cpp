@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/edit/cage.h"
-
 namespace parsel {
 
 namespace {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/edit/cage.h"
-
 namespace parsel {
 
 namespace {

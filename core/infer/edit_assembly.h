@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "core/infer/votes.h"
+#include "core/infer/relation_validity.h"
+#include "core/infer/type_hints.h"
 
 namespace parsel {
 

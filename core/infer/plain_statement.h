@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "core/infer/plain_edit.h"
-#include "core/infer/plain_facts.h"
+#include "core/infer/plain_seed.h"
 
 namespace parsel {
 

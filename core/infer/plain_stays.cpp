@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "core/infer/plain_part.h"
-#include "core/infer/plain_seed.h"
 
 namespace parsel {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/tolerance.h"
-#include "core/edit/cage.h"
 #include "core/edit/evaluate.h"
 
 namespace parsel {

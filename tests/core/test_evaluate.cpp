@@ -4,7 +4,6 @@
 
 #include "core/base/random.h"
 #include "core/base/tolerance.h"
-#include "core/edit/cage.h"
 #include "tests/core/golden.h"
 
 using namespace parsel;

@@ -8,7 +8,6 @@
 #include "core/infer/inference.h"
 #include "core/infer/names.h"
 #include "core/infer/prompt.h"
-#include "core/infer/seed_edit.h"
 #include "core/propagate/propagate.h"
 #include "core/shape/words.h"
 #include "tests/core/scripts.h"

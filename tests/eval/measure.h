@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/edit/cage.h"
 #include "core/edit/evaluate.h"
 #include "core/shape/abstraction.h"
 #include "core/shape/surface.h"

@@ -1,4 +1,4 @@
-#include "core/infer/task_list.h"
+#include "core/infer/task.h"
 
 #include <algorithm>
 #include <array>

@@ -1,1 +1,0 @@
-export function circleFaults(texts: ReadonlyMap<string, string>, known?: Record<string, string>): string[];
