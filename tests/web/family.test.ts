@@ -251,12 +251,7 @@ translate([0, 0, 10]) cube([40, 20, 2]);
     const source = await familyOf(core, model.files, read.saved.family, options);
     const other = createSession();
     const layers = read.saved.program.layers.map((layer) => other.newEntry(layer as never, layer.parameter.value));
-    const document = withFamily(
-      { ...emptyDocument, model, layers },
-      source,
-      read.saved.family,
-      other.newEntry,
-    );
+    const document = withFamily({ ...emptyDocument, model, layers }, source, read.saved.family, other.newEntry);
     other.replaceDocument(document, 'open');
     close(other.family.settingNow(document.family as FamilyState), session.family.settingNow(family()));
     expect(editsOf(document).map(({ layer }) => layer.request)).toEqual(
