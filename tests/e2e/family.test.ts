@@ -5,7 +5,7 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { stool } from './fixture';
-import { download, openPage, pick, saved, stillPicture, useSite, withoutGallery } from './harness';
+import { download, openPage, outputFolder, pick, saved, stillPicture, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -167,6 +167,46 @@ describe('a CAD program', () => {
     await pick(page, [file('bad.scad', 'cube(1);\nminkowski() { cube(1); sphere(1); }\n')]);
     await expect.poll(() => page.getByRole('alert').textContent()).toMatch(/line 2/i);
     expect(await page.evaluate(() => parsel.document().model?.shape.name)).toBe('stool');
+    expect(complaints).toEqual([]);
+  });
+
+  it('lacks a part that only cuts where its box is cleared: what is drawn, what looks chosen, after a reload', async () => {
+    const block = `difference() {
+  // block
+  cube([40, 20, 10]);
+  // hole
+  translate([10, 10, -1]) cylinder(d = 6, h = 12);
+}
+`;
+    const variations = [{ name: 'drilled' }, { name: 'plain', absent: ['hole'] }];
+    await pick(page, [
+      file('block.scad', block),
+      file('block.variations.json', JSON.stringify({ format: 'parsel/variations', version: 1, variations })),
+    ]);
+    await expect.poll(() => page.evaluate(() => parsel.document().model?.shape.name)).toBe('block');
+    await shown();
+    const corners = () => page.evaluate(() => parsel.stage()?.trianglesOf(0).length ?? 0);
+    const chosen = () =>
+      page.getByRole('region', { name: 'Variations' }).locator('button[aria-pressed="true"]').allTextContents();
+    const box = page.getByRole('checkbox', { name: 'hole' });
+    await expect.poll(corners).toBeGreaterThan(36);
+    expect(await box.isChecked()).toBe(true);
+    expect(await chosen()).toEqual(['as drawn', 'drilled']);
+    await box.uncheck();
+    await expect.poll(corners).toBe(36);
+    expect(await chosen()).toEqual(['plain']);
+    await page.screenshot({ path: `${outputFolder}/family-plain.png` });
+    await page.keyboard.press('Control+z');
+    await expect.poll(corners).toBeGreaterThan(36);
+    expect(await box.isChecked()).toBe(true);
+    await page.getByRole('button', { name: 'plain', exact: true }).click();
+    await expect.poll(corners).toBe(36);
+    await saved(page);
+    await page.reload();
+    await ready();
+    await shown();
+    await expect.poll(corners).toBe(36);
+    expect(await box.isChecked()).toBe(false);
     expect(complaints).toEqual([]);
   });
 });

@@ -150,4 +150,21 @@ describe('a thousand parts', () => {
     await page.screenshot({ path: `${outputFolder}/thousand.png` });
     expect(complaints).toEqual([]);
   });
+
+  it('and their labels are offered a few at a time, where one is typed', async () => {
+    await page.getByLabel('Find a part').fill('');
+    await page.locator('.part .name').nth(2).click();
+    const field = page.getByLabel('Label', { exact: true });
+    const offered = () => page.locator('#part-labels option').evaluateAll((all) => all.map((one) => one.value));
+    await field.waitFor();
+    expect(await offered()).toEqual([]);
+    await field.focus();
+    expect((await offered()).length).toBe(50);
+    await field.fill('77');
+    const like = await offered();
+    expect(like.length).toBeGreaterThan(1);
+    expect(like.filter((label) => !label.includes('77'))).toEqual([]);
+    await field.press('Escape');
+    expect(complaints).toEqual([]);
+  });
 });

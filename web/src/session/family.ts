@@ -10,6 +10,8 @@ import type { Document, LayerEntry } from './document';
 import { activeLayers, type Evaluation } from './evaluation';
 import type { Choice, Choices, FamilySource, FamilyState, NamedVariation, Variations } from './family_found';
 import {
+  absentIds,
+  areThere,
   baseOf,
   editsOf,
   familyLayers,
@@ -20,7 +22,9 @@ import {
   type Setting,
   settingOf,
   shapeIds,
+  stillOptional,
   valueAt,
+  withOptional,
 } from './family_state';
 import { FileError, type FoundFiles } from './files';
 import type { History } from './history';
@@ -29,6 +33,12 @@ import type { ModelCore } from './model_core';
 import type { RunOptions, Tasks } from './tasks';
 
 const none: Choices = {};
+
+/** Which optional parts a variation has; null: the program itself, which has all. */
+const hasIn = ({ found }: FamilySource, variation: number | null) => {
+  const absent = variation === null ? [] : (found.family.variations[variation]?.absent ?? []);
+  return (parts: readonly string[]) => !parts.some((id) => absent.includes(id));
+};
 
 /** A program among files, as what it makes; other files as they are. Rejects with what the core refuses, by its line. */
 export async function withProgramRead(core: ModelCore, files: FoundFiles, options: RunOptions): Promise<FoundFiles> {
@@ -77,10 +87,15 @@ export interface FamilyActions {
   readonly mixing: Signal<readonly number[] | null>;
   /** Where the sliders stand, ahead of the document while they are dragged. */
   settingNow(family: FamilyState): Setting;
-  /** Whether the sliders stand at a setting, as far as they go: a variation may lack what one of them moves. */
-  isAt(family: FamilyState, setting: Setting): boolean;
+  /**
+   * Whether what stands there is a variation, or (null) the program itself: its optional parts, and its setting of the
+   * sliders as far as they go, since a variation may lack what one of them moves.
+   */
+  isShown(variation: number | null): boolean;
   /** Mixes a variation in by another weight, by as much as the sliders then move. Kept when `settle` says so. */
   mix(variation: number, weight: number, settle: boolean): void;
+  /** Whether optional parts, which are absent together, are there. */
+  setThere(parts: readonly string[], there: boolean): void;
   /** Puts everything where a variation, or (null) the program itself, has it. */
   showVariation(variation: number | null): void;
   /** Chooses what is shared against the evidence; null: as the variations say. */
@@ -110,12 +125,18 @@ export function createFamily(
     });
   const settingNow = (family: FamilyState) => read(family, sliderValue);
 
-  const isAt = (family: FamilyState, setting: Setting) =>
-    family.keys.every((key, k) => {
+  function isShown(variation: number | null): boolean {
+    const { family } = document.value;
+    if (family === undefined) return false;
+    const setting = variation === null ? baseOf(family) : settingOf(family, variation);
+    const isAt = family.keys.every((key, k) => {
       const entry = entryOf(key);
       if (entry === undefined) return false;
       return Math.abs(sliderValue(entry) - clamp(entry, valueAt(family, k, setting[k] ?? 0))) < 1e-6;
     });
+    const has = hasIn(family, variation);
+    return isAt && family.found.family.optional.every(({ parts }) => areThere(document.value, parts) === has(parts));
+  }
 
   /** Layers with the family's sliders at a setting. */
   function layersAt(family: FamilyState, setting: Setting): readonly LayerEntry[] {
@@ -147,27 +168,20 @@ export function createFamily(
   }
 
   function showVariation(variation: number | null): void {
-    const { family, model, hidden } = document.peek();
-    if (family === undefined || model?.files.cad === undefined) return;
-    const shown = variation === null ? null : family.found.family.variations[variation];
-    const ids = shapeIds(model.files.cad, model.shape);
-    const absent = new Set(hidden);
-    for (const { parts } of family.found.family.optional) {
-      for (const part of parts) {
-        const id = ids.get(part);
-        if (id === undefined) continue;
-        if (shown?.absent.includes(part)) absent.add(id);
-        else absent.delete(id);
-      }
-    }
+    const { family, model } = document.peek();
+    if (family === undefined || model === null) return;
     const setting = variation === null ? baseOf(family) : settingOf(family, variation);
     const weights = family.weights.map((_, i) => (i === variation ? 1 : 0));
-    history.push(t`show “${shown?.name ?? model.shape.name}”`, {
-      ...document.peek(),
-      layers: layersAt(family, setting),
-      hidden: absent,
-      family: { ...family, weights },
-    });
+    const name = variation === null ? model.shape.name : family.found.family.variations[variation]?.name;
+    const next = { ...document.peek(), layers: layersAt(family, setting), family: { ...family, weights } };
+    history.push(t`show “${name ?? ''}”`, withOptional(next, hasIn(family, variation)));
+  }
+
+  function setThere(parts: readonly string[], there: boolean): void {
+    const now = document.peek();
+    const isThose = (group: readonly string[]) => group.some((id) => parts.includes(id));
+    const next = withOptional(now, (group) => (isThose(group) ? there : areThere(now, group)));
+    history.push(there ? t`show@step` : t`hide@step`, next);
   }
 
   /** The family anew, with the sliders as near as they can be to where they stood. */
@@ -194,7 +208,12 @@ export function createFamily(
     history.push(label, {
       ...document.peek(),
       layers: [...entries, ...edits],
-      family: { ...source, weights, keys: entries.map(({ key }) => key) },
+      family: {
+        ...source,
+        weights,
+        without: stillOptional(source, family.without),
+        keys: entries.map(({ key }) => key),
+      },
     });
     const [before, after] = [family.keys.length, entries.length];
     const sliders = plural(after, '{n} slider', '{n} sliders');
@@ -225,7 +244,9 @@ export function createFamily(
       return false;
     }
     const ids = shapeIds(model.files.cad, model.shape);
-    const absent = model.files.cad.parts.flatMap(({ id }) => (hidden.has(ids.get(id) ?? '') ? [id] : []));
+    const left = absentIds(document.peek());
+    const isAbsent = (id: string) => left.has(id) || hidden.has(ids.get(id) ?? '');
+    const absent = model.files.cad.parts.flatMap(({ id }) => (isAbsent(id) ? [id] : []));
     const kept = {
       name,
       source: 'hand',
@@ -254,5 +275,16 @@ export function createFamily(
     await find(core, variations, family.choices, t`remove “${list[variation]?.name ?? ''}”`);
   }
 
-  return { mixing, settingNow, isAt, mix, showVariation, choose, keepVariation, addVariations, removeVariation };
+  return {
+    mixing,
+    settingNow,
+    isShown,
+    mix,
+    setThere,
+    showVariation,
+    choose,
+    keepVariation,
+    addVariations,
+    removeVariation,
+  };
 }

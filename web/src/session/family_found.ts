@@ -28,4 +28,6 @@ export interface FamilyState extends FamilySource {
   readonly keys: readonly number[];
   /** How much of each variation is mixed in, 0 … 1. */
   readonly weights: readonly number[];
+  /** Optional parts that are left out and were never drawn, so that nothing is hidden for them: those that only cut. By id of the program. */
+  readonly without: readonly string[];
 }

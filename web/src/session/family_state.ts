@@ -114,16 +114,17 @@ export interface SavedFamily {
   readonly choices: readonly (readonly [string, Choice])[];
   /** Absent: those that come with the program. */
   readonly variations?: unknown;
+  readonly without?: readonly string[];
 }
 
 /**
  * A document with a family's sliders, before its edits. Layers of saved work that are these sliders are taken for them.
- * @param saved sliders among the document's first layers, 0 for none
+ * @param saved what was kept of it: its sliders are among the document's first layers
  */
 export function withFamily(
   document: Document,
   source: FamilySource | null,
-  saved: number,
+  saved: SavedFamily | undefined,
   newEntry: (layer: Layer) => LayerEntry,
 ): Document {
   const shape = document.model?.shape;
@@ -131,14 +132,15 @@ export function withFamily(
   const { sliders } = source.found.family;
   const weights = source.found.family.variations.map(() => 0);
   const first = document.layers.slice(0, sliders.length);
-  const isHere = saved === sliders.length && first.every(({ layer }, k) => layer.request === sliders[k]?.name);
-  if (isHere) return { ...document, family: { ...source, weights, keys: first.map(({ key }) => key) } };
+  const without = stillOptional(source, saved?.without ?? []);
+  const isHere = saved?.sliders === sliders.length && first.every(({ layer }, k) => layer.request === sliders[k]?.name);
+  if (isHere) return { ...document, family: { ...source, weights, without, keys: first.map(({ key }) => key) } };
   const taken = new Set(document.layers.map(({ layer }) => layer.parameter.name));
   const entries = familyLayers(source, shape, taken).map((layer) => newEntry(layer));
   return {
     ...document,
     layers: [...entries, ...document.layers],
-    family: { ...source, weights, keys: entries.map(({ key }) => key) },
+    family: { ...source, weights, without, keys: entries.map(({ key }) => key) },
   };
 }
 
@@ -151,14 +153,41 @@ export function absentParts({ family, model, hidden }: Document): ReadonlySet<st
   return new Set(optional.filter((id) => hidden.has(id)));
 }
 
-/** The same by id of the program, with parts that only cut: they go with what they are absent with. */
-export function absentIds(document: Document): ReadonlySet<string> {
+/** Of parts that were left out, those that not all variations have. */
+export const stillOptional = ({ found }: FamilySource, ids: readonly string[]): readonly string[] =>
+  ids.filter((id) => found.family.optional.some(({ parts }) => parts.includes(id)));
+
+/** Whether parts that are absent together are there, by id of the program. */
+export function areThere({ family, model, hidden }: Document, parts: readonly string[]): boolean {
+  const cad = model?.files.cad;
+  if (family === undefined || cad === undefined || model === null) return true;
+  const ids = shapeIds(cad, model.shape);
+  return !parts.some((id) => family.without.includes(id) || hidden.has(ids.get(id) ?? ''));
+}
+
+/** A document with its optional parts there or not: hidden, or, where they only cut, left out. */
+export function withOptional(document: Document, isThere: (parts: readonly string[]) => boolean): Document {
   const { family, model } = document;
   const cad = model?.files.cad;
-  if (family === undefined || cad === undefined || model === null) return new Set();
+  if (family === undefined || cad === undefined || model === null) return document;
   const ids = shapeIds(cad, model.shape);
-  const hidden = absentParts(document);
-  const gone = family.found.family.optional.filter(({ parts }) => parts.some((id) => hidden.has(ids.get(id) ?? '')));
+  const hidden = new Set(document.hidden);
+  const without: string[] = [];
+  for (const { parts } of family.found.family.optional) {
+    const there = isThere(parts);
+    for (const part of parts) {
+      const id = ids.get(part);
+      if (id === undefined && !there) without.push(part);
+      else if (id !== undefined && there) hidden.delete(id);
+      else if (id !== undefined) hidden.add(id);
+    }
+  }
+  return { ...document, hidden, family: { ...family, without } };
+}
+
+/** Parts that the variation on the stage lacks, by id of the program. */
+export function absentIds(document: Document): ReadonlySet<string> {
+  const gone = document.family?.found.family.optional.filter(({ parts }) => !areThere(document, parts)) ?? [];
   return new Set(gone.flatMap(({ parts }) => parts));
 }
 
@@ -174,5 +203,6 @@ export function savedFamily({ family, model }: Document): SavedFamily | undefine
     sliders: family.keys.length,
     choices: Object.entries(family.choices),
     ...(isOwn ? {} : { variations: family.variations }),
+    ...(family.without.length > 0 ? { without: family.without } : {}),
   };
 }

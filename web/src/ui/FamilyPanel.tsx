@@ -6,9 +6,9 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { models } from '../session/core';
 import type { OpenModel } from '../session/document';
 import type { FamilyState } from '../session/family_found';
-import { settingOf, shapeIds } from '../session/family_state';
+import { absentIds, areThere, shapeIds } from '../session/family_state';
 import { interrupt } from '../session/play';
-import { family as actions, document, setHidden, step, task } from '../session/session';
+import { family as actions, document, step, task } from '../session/session';
 import { plural, t } from '../texts/texts';
 import { FamilyKinds, SuggestKinds } from './FamilyKinds';
 import { FamilyShared } from './FamilyShared';
@@ -23,14 +23,15 @@ export function FamilyPanel() {
   const cad = model?.files.cad;
   const ids = useMemo(() => (model && cad ? shapeIds(cad, model.shape) : new Map<string, string>()), [model, cad]);
   if (model === null || family === undefined || cad === undefined) return null;
-  const isAbsent = (id: string) => hidden.has(ids.get(id) ?? '');
+  const left = absentIds(document.value);
+  const isAbsent = (id: string) => left.has(id) || hidden.has(ids.get(id) ?? '');
   const { sliders, counts, warnings } = family.found.family;
   const sections = [...new Set(sliders.map(({ section }) => section))];
   return (
     <div class="family">
       <Strip family={family} model={model} />
       <FamilyKinds family={family} />
-      <Optional family={family} ids={ids} />
+      <Optional family={family} />
       <section aria-label={t`Sliders`}>
         <h3>
           {plural(counts.sliders, '{n} slider', '{n} sliders')}{' '}
@@ -80,32 +81,32 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
   const { files } = model;
   useEffect(() => drawFamily(files, family), [files, pictures]);
   const entries = [
-    { name: t`as drawn`, setting: family.found.family.sliders.map(({ value }) => value) },
-    ...variations.map(({ name }, i) => ({ name, setting: settingOf(family, i) })),
+    { name: t`as drawn`, variation: null },
+    ...variations.map(({ name }, i) => ({ name, variation: i })),
   ];
   return (
     <section aria-label={t`Variations`}>
       <ul class="variations">
-        {entries.map(({ name, setting }, i) => (
+        {entries.map(({ name, variation }, i) => (
           <li key={name}>
             <button
               type="button"
-              aria-pressed={actions.isAt(family, setting)}
+              aria-pressed={actions.isShown(variation)}
               onClick={() => {
                 interrupt();
-                actions.showVariation(i === 0 ? null : i - 1);
+                actions.showVariation(variation);
               }}
             >
               <span class="thumbnail">{familyPictures.value[i] && <img src={familyPictures.value[i]} alt="" />}</span>
               <span>{name}</span>
             </button>
-            {i > 0 && (
+            {variation !== null && (
               <button
                 type="button"
                 class="button icon-only remove"
                 aria-label={t`Remove ${name}`}
                 title={t`Remove this variation`}
-                onClick={() => models.value && void actions.removeVariation(models.value, i - 1)}
+                onClick={() => models.value && void actions.removeVariation(models.value, variation)}
               >
                 <Icon name="close" />
               </button>
@@ -150,8 +151,8 @@ function Keep({ family }: { family: FamilyState }) {
 }
 
 /** Parts that not all variations have. */
-function Optional({ family, ids }: { family: FamilyState; ids: ReadonlyMap<string, string> }) {
-  const { hidden, model } = document.value;
+function Optional({ family }: { family: FamilyState }) {
+  const { model } = document.value;
   const { optional } = family.found.family;
   const parts = model?.files.cad?.parts ?? [];
   if (optional.length === 0) return null;
@@ -159,14 +160,13 @@ function Optional({ family, ids }: { family: FamilyState; ids: ReadonlyMap<strin
     <fieldset class="optional">
       <legend>{t`Not all have`}</legend>
       {optional.map((group) => {
-        const those = group.parts.flatMap((id) => ids.get(id) ?? []);
         const names = group.parts.map((id) => parts.find((part) => part.id === id)?.name ?? id);
         return (
           <label key={group.parts.join(' ')} class="check" title={t`Not in: ${group.absent_from.join(', ')}`}>
             <input
               type="checkbox"
-              checked={!those.some((id) => hidden.has(id))}
-              onChange={(event) => setHidden(those, !event.currentTarget.checked)}
+              checked={areThere(document.value, group.parts)}
+              onChange={(event) => actions.setThere(group.parts, event.currentTarget.checked)}
             />
             <span>{names.join(', ')}</span>
           </label>

@@ -2,7 +2,7 @@
 // Tab key: arrows walk it. Of a long list only what is in sight is drawn.
 
 import { type Signal, useSignal } from '@preact/signals';
-import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 import type { ShapePart } from '../program/types';
 import {
   document,
@@ -34,8 +34,12 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
   const { names } = document.value;
   const named = ({ id, name }: ShapePart) => names.get(id) ?? name;
   const chosen = new Set(selected.value);
-  const holds = (group: ShapePart) => opened.value.has(group.id) || group.members.some((id) => chosen.has(id));
-  const rows = partRows(parts, { query: query.value, nameOf: named, isOpen: holds });
+  // What is selected changes the rows only where it opens a group.
+  const holding = parts.filter(({ members }) => members.some((id) => chosen.has(id))).map(({ id }) => id);
+  const rows = useMemo(() => {
+    const open = new Set([...opened.value, ...holding]);
+    return partRows(parts, { query: query.value, nameOf: named, isOpen: ({ id }) => open.has(id) });
+  }, [parts, names, query.value, opened.value, holding.join(' ')]);
   const isLong = parts.length > mostShort;
   const [first, end] = rowsInSight(rows.length, rowHeight, scrolled.value, list.current?.clientHeight || 600);
   const indexOf = (id: string) =>
