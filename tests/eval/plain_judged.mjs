@@ -18,6 +18,7 @@ import { homedir, tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { loadCore } from '../../web/tools/core.mjs';
 import { judge, readNodes } from './predicates.mjs';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
@@ -84,10 +85,21 @@ function measureOf({ part, what }, scale, start) {
   return what === 'distance' ? (parts) => distance(parts[part][0], start[part][0]) : null;
 }
 
+let core = null;
+/** Beyond its end the page stretches a slider as far as all holds (web/src/session/extend.ts); as it does, to file. */
+async function stretched(program, path, to) {
+  core ??= await loadCore();
+  core('open', { name: program.shape.name, external: [] }, [readFileSync(path)]);
+  const extended = core('extend', { program, layer: 0, to }).result.program;
+  writeFileSync(file('program.json'), JSON.stringify(extended));
+  return extended;
+}
+
 /** Where the slider must stand for the target: the secant method from where the seed alone puts it. */
-function sliderAt(target, { shape, shapePath }, program) {
-  const { max } = program.layers[0].parameter;
+async function sliderAt(target, { path, shape, shapePath }, program) {
   const stateAt = (x) => JSON.parse(run('evaluate', shapePath, file('program.json'), '--set', `x1=${x}`)).parts;
+  let { max } = program.layers[0].parameter;
+  if (target.x > max) ({ max } = (await stretched(program, path, 1.3 * target.x)).layers[0].parameter);
   const within = (x) => Math.min(max, Math.max(0, x));
   const start = stateAt(0);
   const measure = measureOf(target, shape.frame.scale, start);
@@ -117,7 +129,7 @@ async function verdict(model, { predicates }, { edit, plain }) {
   const { max } = program.layers[0].parameter;
   const { target } = plain.readings[0];
   const counts = edit.seed.some(({ op }) => op === 'change_count');
-  const slider = target ? sliderAt(target, model, program) : counts ? max : Math.min(0.2, max);
+  const slider = target ? await sliderAt(target, model, program) : counts ? max : Math.min(0.2, max);
   run('apply', path, file('program.json'), '--set', `x1=${slider}`, '--force', '-o', file('edited.glb'));
   const now = await readNodes(readFileSync(file('edited.glb')));
   const wrong = predicates
