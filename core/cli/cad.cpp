@@ -21,8 +21,8 @@ int run(const Arguments& arguments) {
   const Result<cad::Model> model = read_cad(arguments.positional[0], unit);
   if (!model) return refuse(model.error());
   const std::string out = arguments.option("-o");
-  if (ends_with(out, ".scad")) return write_bytes(out, cad::to_scad(*model));
-  if (!ends_with(out, ".glb")) return write_json(arguments, cad::to_json(*model));
+  if (out.ends_with(".scad")) return write_bytes(out, cad::to_scad(*model));
+  if (!out.ends_with(".glb")) return write_json(arguments, cad::to_json(*model));
   std::size_t undrawn = 0;
   for (const cad::Part& part : model->parts) undrawn += part.role != cad::Role::add;
   if (undrawn > 0) {

@@ -22,26 +22,12 @@ void tell(const std::string& path, const char* kind, const std::vector<cad::Noti
 
 }  // namespace
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 Result<cad::Model> read_cad(const std::string& path, const std::string& unit) {
-  const auto at_path = [&](Error error) {
-    error.place = path + (error.place.empty() ? "" : ", " + error.place);
-    return error;
-  };
-  if (ends_with(path, ".json")) {
-    const Result<nlohmann::json> json = read_json(path);
-    if (!json) return json.error();
-    Result<cad::Model> model = cad::model_from_json(*json);
-    if (!model) return at_path(model.error());
-    return model;
-  }
+  if (path.ends_with(".json")) return read_json_as<cad::Model>(path, cad::model_from_json);
   const Result<std::string> text = read_file(path);
   if (!text) return text.error();
   Result<cad::Model> model = cad::read_scad(*text, std::filesystem::path(path).stem().string());
-  if (!model) return at_path(model.error());
+  if (!model) return within(model.error(), path);
   model->unit = unit;
   tell(path, "echo", model->echoes);
   tell(path, "warning", model->warnings);

@@ -12,6 +12,4 @@ namespace parsel::cli {
 /// unit given. Its warnings and echoes go to stderr. Error places begin with the path.
 Result<cad::Model> read_cad(const std::string& path, const std::string& unit);
 
-bool ends_with(const std::string& text, const std::string& end);
-
 }  // namespace parsel::cli

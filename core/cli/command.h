@@ -50,6 +50,9 @@ int misuse(std::string_view message);
 /// is given. Done for every -o before a command runs.
 Status may_write(const Arguments& arguments, const std::string& option);
 
+/// The error with `place` (a path, a part of a job) before its own place.
+Error within(Error error, const std::string& place);
+
 Result<std::string> read_file(const std::string& path);
 Status write_file(const std::string& path, std::string_view bytes);
 /// Writes beside the path first: a file under its own name is whole.

@@ -62,14 +62,10 @@ int run(const Arguments& arguments) {
   std::vector<family::Variation> variations;
   if (arguments.has("--variations")) {
     const std::string path = arguments.option("--variations");
-    const Result<nlohmann::json> json = read_json(path);
-    if (!json) return refuse(json.error());
-    auto read = family::variations_from_json(*json, family::layout_of(*model, options.vocabulary), *model);
-    if (!read) {
-      Error error = read.error();
-      error.place = path + ", " + error.place;
-      return refuse(error);
-    }
+    auto read = read_json_as<std::vector<family::Variation>>(path, [&](const nlohmann::json& json) {
+      return family::variations_from_json(json, family::layout_of(*model, options.vocabulary), *model);
+    });
+    if (!read) return refuse(read.error());
     variations = std::move(*read);
   }
   const Result<family::Family> family = make_family(*model, std::move(variations), options);

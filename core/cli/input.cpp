@@ -6,39 +6,21 @@
 
 namespace parsel::cli {
 
-namespace {
-
-Error at_path(Error error, const std::string& path) {
-  if (error.place != path) error.place = path + (error.place.empty() ? "" : ", " + error.place);
-  return error;
-}
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-}  // namespace
-
 Result<nlohmann::json> read_json(const std::string& path) {
   const Result<std::string> text = read_file(path);
   if (!text) return text.error();
   Result<nlohmann::json> json = json_from_text(*text, "cli");
-  if (!json) return at_path(json.error(), path);
+  if (!json) return within(json.error(), path);
   return json;
 }
 
 Result<Corrections> read_corrections(const Arguments& arguments) {
   if (!arguments.has("--corrections")) return Corrections{};
-  const std::string path = arguments.option("--corrections");
-  const Result<nlohmann::json> json = read_json(path);
-  if (!json) return json.error();
-  Result<Corrections> corrections = corrections_from_file(*json);
-  if (!corrections) return at_path(corrections.error(), path);
-  return corrections;
+  return read_json_as<Corrections>(arguments.option("--corrections"), corrections_from_file);
 }
 
 Result<Shape> read_shape(const std::string& path, const Corrections& corrections) {
-  if (!ends_with(path, ".json")) {
+  if (!path.ends_with(".json")) {
     Result<Model> model = load_model(path, {}, corrections);
     if (!model) return model.error();
     return std::move(model->abstraction.shape);
@@ -47,26 +29,22 @@ Result<Shape> read_shape(const std::string& path, const Corrections& corrections
     return Error{"cli", path, "a shape that was written down cannot be corrected any more",
                  "give the model, or parsel inspect MODEL --corrections FILE -o SHAPE.json"};
   }
-  const Result<nlohmann::json> json = read_json(path);
-  if (!json) return json.error();
-  Result<Shape> shape = shape_from_json(*json);
-  if (!shape) return at_path(shape.error(), path);
-  if (const Status valid = validate(*shape); !valid) return at_path(valid.error(), path);
-  return shape;
+  return read_json_as<Shape>(path, [](const nlohmann::json& json) -> Result<Shape> {
+    Result<Shape> shape = shape_from_json(json);
+    if (!shape) return shape;
+    if (const Status valid = validate(*shape); !valid) return valid.error();
+    return shape;
+  });
 }
 
 Result<EditRequest> read_edit(const std::string& path) {
-  const Result<nlohmann::json> json = read_json(path);
-  if (!json) return json.error();
-  Result<EditRequest> edit = edit_request_from_json(*json);
-  if (!edit) return at_path(edit.error(), path);
-  return edit;
+  return read_json_as<EditRequest>(path, edit_request_from_json);
 }
 
 Result<Program> read_program(const std::string& path, const Shape& shape) {
   Result<ProgramFile> file = load_program(path);
-  if (!file) return at_path(file.error(), path);
-  if (const Status valid = validate(file->program, shape); !valid) return at_path(valid.error(), path);
+  if (!file) return within(file.error(), path);
+  if (const Status valid = validate(file->program, shape); !valid) return within(valid.error(), path);
   return std::move(file->program);
 }
 

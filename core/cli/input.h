@@ -21,6 +21,16 @@ Result<Shape> read_shape(const std::string& path, const Corrections& corrections
 
 Result<nlohmann::json> read_json(const std::string& path);
 
+/// What `read` (JSON to Result<T>) makes of the JSON in a file. Error places begin with the path.
+template <class T, class Read>
+Result<T> read_json_as(const std::string& path, Read&& read) {
+  const Result<nlohmann::json> json = read_json(path);
+  if (!json) return json.error();
+  Result<T> made = read(*json);
+  if (!made) return within(made.error(), path);
+  return made;
+}
+
 /// An edit request, format parsel/edit. Error places begin with the path.
 Result<EditRequest> read_edit(const std::string& path);
 

@@ -27,11 +27,6 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-Error within(Error error, const std::string& place) {
-  error.place = place + (error.place.empty() ? "" : ", " + error.place);
-  return error;
-}
-
 /// A job that is being done: what is found, and what lies in the folder so far.
 class Work {
  public:

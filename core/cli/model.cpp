@@ -40,9 +40,7 @@ Result<Model> load_model(const std::string& path, const Labels& labels, const Co
       return Error{"cli", path, "it is of the format parsel/" + format + ", not a model",
                    "give the .glb or .gltf file"};
     }
-    Error error = abstraction.error();
-    error.place = path + (error.place.empty() ? "" : ", " + error.place);
-    return error;
+    return within(abstraction.error(), path);
   }
   model.abstraction = std::move(*abstraction);
   return model;

@@ -45,6 +45,11 @@ Status may_write(const Arguments& arguments, const std::string& option) {
   return Error{"cli", option + " " + path, "the file is read by the same command", "write to another file"};
 }
 
+Error within(Error error, const std::string& place) {
+  if (error.place != place) error.place = place + (error.place.empty() ? "" : ", " + error.place);
+  return error;
+}
+
 Result<std::string> read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return Error{"cli", path, "the file cannot be opened", "check the path and its permissions"};

@@ -7,7 +7,7 @@
 #include "core/cli/input.h"
 #include "core/cli/task.h"
 #include "core/infer/cad_task.h"
-#include "core/infer/inference.h"
+#include "core/infer/inference_json.h"
 #include "core/infer/variation_reply.h"
 
 namespace parsel::cli {
@@ -35,11 +35,7 @@ int read_about_program(const Arguments& arguments, const CadTask& task) {
   if (!texts.ok()) return refuse(texts.error());
   const Result<nlohmann::json> read =
       task.about_kind ? read_variation(*model, arguments.option("--kind"), *texts) : read_kinds(*model, *texts);
-  if (!read.ok()) {
-    Error error = read.error();
-    error.place = arguments.positional[1] + (error.place.empty() ? "" : ", " + error.place);
-    return refuse(error);
-  }
+  if (!read.ok()) return refuse(within(read.error(), arguments.positional[1]));
   for (const nlohmann::json& refused : (*read)["refused"]) {
     std::cerr << "warning: " << arguments.positional[refused["vote"].get<std::size_t>() + 1] << ": "
               << refused["error"]["place"].get<std::string>() << ": " << refused["error"]["cause"].get<std::string>()
@@ -63,9 +59,7 @@ int run(const Arguments& arguments) {
   const Replies replies{asked->task, asked->relation, *texts};
   const Inference inference = infer(*shape, {replies});
   if (inference.refused.size() == replies.texts.size()) {  // then there is nothing to count
-    Error error = inference.refused.front().error;
-    error.place = arguments.positional[1] + (error.place.empty() ? "" : ", " + error.place);
-    return refuse(error);
+    return refuse(within(inference.refused.front().error, arguments.positional[1]));
   }
   return write_json(arguments, to_json(*shape, inference));
 }

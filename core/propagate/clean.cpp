@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/prove/deviation.h"
+#include "core/prove/first_fault.h"
 #include "core/prove/prove.h"
 #include "core/prove/range.h"
 #include "core/prove/scope.h"
@@ -12,9 +13,8 @@ namespace parsel {
 
 namespace {
 
-constexpr int steps = 96;     ///< of a scan for the first place where something comes apart
-constexpr int halvings = 24;  ///< of the step in which it does
-constexpr double decimals = 1e4;
+constexpr int steps = 96;       ///< of a scan for the first place where something comes apart
+constexpr int halvings = 24;    ///< of the step in which it does
 constexpr int most_rounds = 8;  ///< of a proof that finds something between the steps
 constexpr double step_back = 0.97;
 
@@ -39,20 +39,7 @@ class Watch {
 
   /// How far from `from`, where all is kept, towards `to` it stays so.
   double reach(double from, double to) {
-    double good = from;
-    for (int i = 1; i <= steps; ++i) {
-      double bad = from + (to - from) * i / steps;
-      if (keeps(bad)) {
-        good = bad;
-        continue;
-      }
-      for (int k = 0; k < halvings; ++k) {
-        const double middle = (good + bad) / 2;
-        (keeps(middle) ? good : bad) = middle;
-      }
-      return good;
-    }
-    return to;
+    return first_fault(from, to, steps, halvings, [&](double x) { return keeps(x) ? "" : "a relation breaks"; }).x;
   }
 
  private:
@@ -72,11 +59,6 @@ class Watch {
   std::vector<Watched> watched_;
   std::vector<double> values_;
 };
-
-/// Four decimals, towards 0.
-double rounded(double end) {
-  return std::trunc(end * decimals) / decimals;
-}
 
 bool any_broken(const Layer& layer, const std::set<std::string>* among = nullptr) {
   return std::any_of(layer.relations.begin(), layer.relations.end(), [&](const RelationReport& report) {
@@ -108,15 +90,15 @@ void cut_to_clean(const Shape& shape, Program& program, std::size_t layer) {
   Parameter& range = cut.parameter;
   const std::set<std::string> disabled = disabled_in(cut);
   Watch watch(shape, program, layer, [](const std::string&) { return true; });
-  range.min = rounded(watch.reach(0, range.min));
-  range.max = rounded(watch.reach(0, range.max));
+  range.min = shortened(watch.reach(0, range.min));
+  range.max = shortened(watch.reach(0, range.max));
   for (int round = 0; round <= most_rounds; ++round) {
     if (round == most_rounds) range.min = range.max = 0;
     range.value = std::clamp(range.value, range.min, range.max);
     cut.relations = prove_relations(shape, program, layer, disabled);
     if (!any_broken(cut)) return;
-    range.min = rounded(range.min * step_back);
-    range.max = rounded(range.max * step_back);
+    range.min = shortened(range.min * step_back);
+    range.max = shortened(range.max * step_back);
   }
 }
 
@@ -134,11 +116,11 @@ void extend_range(const Shape& shape, Program& program, std::size_t layer, doubl
   const Range possible = find_range(shape, program, layer, -std::abs(to), std::abs(to));
   Watch watch(shape, program, layer, [&](const std::string& id) { return held.count(id) > 0; });
   end = watch.reach(old, to > 0 ? std::max(old, possible.max) : std::min(old, possible.min));
-  if (end != to) end = rounded(end);
+  if (end != to) end = shortened(end);
   for (int round = 0; round < most_rounds && std::abs(end) > std::abs(old); ++round) {
     if (!before.relations.empty()) stretched.relations = prove_relations(shape, program, layer, disabled_in(before));
     if (!any_broken(stretched, &held) && validate(program, shape)) return;
-    end = rounded(old + (end - old) / 2);
+    end = shortened(old + (end - old) / 2);
   }
   stretched = before;
 }

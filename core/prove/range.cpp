@@ -8,6 +8,7 @@
 
 #include "core/edit/evaluate.h"
 #include "core/prove/enclosure.h"
+#include "core/prove/first_fault.h"
 #include "core/prove/scope.h"
 #include "core/prove/stack_failure.h"
 
@@ -17,7 +18,6 @@ namespace {
 
 constexpr int steps = 48;
 constexpr double precision = 1e-6;  ///< of the limit
-constexpr double decimals = 1e4;
 /// Pieces of a side's range that are looked at to show that nothing goes wrong between the steps, and how narrow they
 /// may become, as a share of the limit. Fewer, and a spike beside a smooth collapse is not reached; an end that was
 /// found by bisection alone takes some ten.
@@ -186,41 +186,26 @@ class Limits {
   std::vector<double> values_;
 };
 
-struct End {
-  double x = 0;
-  std::string reason;
-};
-
 /// Where it goes wrong between `good`, where it does not, and `bad`, where it does for `reason`.
-End bisect(Limits& limits, double good, double bad, std::string reason, double limit) {
-  while (std::abs(bad - good) > limit * precision) {
-    const double middle = (good + bad) / 2;
-    std::string here = limits.failure(middle);
-    if (here.empty()) {
-      good = middle;
-    } else {
-      bad = middle;
-      reason = std::move(here);
-    }
-  }
-  return {std::trunc(good * decimals) / decimals, std::move(reason)};
+RangeEnd bisect(Limits& limits, double good, double bad, std::string reason, double limit) {
+  RangeEnd end = bisect_fault(good, bad, std::move(reason), halvings_to(std::abs(bad - good), limit * precision),
+                              [&](double x) { return limits.failure(x); });
+  end.x = shortened(end.x);
+  return end;
 }
 
 /// The last good value from 0 towards `end` as far as steps show, and why no further.
-End search(Limits& limits, double end) {
-  double good = 0;
-  for (int i = 1; i <= steps; ++i) {
-    const double next = i == steps ? end : end * i / steps;
-    std::string reason = limits.failure(next);
-    if (!reason.empty()) return bisect(limits, good, next, std::move(reason), std::abs(end));
-    good = next;
-  }
-  return {end, "limit"};
+RangeEnd search(Limits& limits, double end) {
+  RangeEnd found =
+      first_fault(0, end, steps, halvings_to(1.0 / steps, precision), [&](double x) { return limits.failure(x); });
+  if (found.reason.empty()) return {end, "limit"};
+  found.x = shortened(found.x);
+  return found;
 }
 
 /// Looks between the steps: pieces that cannot be shown to be good are halved, the widest first, and end the range
 /// where their middle fails.
-End refine(Limits& limits, End found, double limit) {
+RangeEnd refine(Limits& limits, RangeEnd found, double limit) {
   const double sign = found.x < 0 ? -1 : 1;
   std::deque<Interval> waiting = {{0, std::abs(found.x)}};  // distances from 0
   for (int looked = 0; !waiting.empty() && looked < most_pieces; ++looked) {
@@ -255,8 +240,8 @@ Range find_range(const Shape& shape, const Program& program, std::size_t layer, 
     range.min_reason = range.max_reason = at_rest;
     return range;
   }
-  const End low = refine(limits, search(limits, low_limit), -low_limit);
-  const End high = refine(limits, search(limits, high_limit), high_limit);
+  const RangeEnd low = refine(limits, search(limits, low_limit), -low_limit);
+  const RangeEnd high = refine(limits, search(limits, high_limit), high_limit);
   return {low.x, high.x, low.reason, high.reason};
 }
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 
 #include "core/prove/clearance.h"
 #include "core/prove/deviation.h"
+#include "core/prove/first_fault.h"
 #include "core/prove/prove.h"
 #include "core/prove/scope.h"
 
@@ -16,59 +16,29 @@ namespace {
 
 constexpr int steps = 24;
 constexpr int halvings = 14;
-constexpr double decimals = 1e4;
 /// Where a relation is off by this share of what it may be it ends the range, so that the proof has room to close.
 constexpr double near_limit = 0.98;
 /// What is seen to be wrong this early ends nothing: it is what was asked for, or a slider would be of no use.
 constexpr double least_seen = 0.1;
 constexpr int most_cuts = 4, most_halvings = 3;
 
-/// What goes wrong at a value of the parameter, a clause; empty when nothing does.
-using Fault = std::function<std::string(double)>;
-
-struct End {
-  double x;
-  std::string reason;
-};
-
 /// From `core`, where nothing counts as wrong yet, outwards to `end`: the last value before a fault.
-End cut(double core, const End& end, const Fault& fault) {
-  if (core == end.x) return end;
-  double good = core;
-  for (int i = 1; i <= steps; ++i) {
-    double bad = i == steps ? end.x : core + (end.x - core) * i / steps;
-    std::string reason = fault(bad);
-    if (reason.empty()) {
-      good = bad;
-      continue;
-    }
-    for (int k = 0; k < halvings; ++k) {
-      const double middle = (good + bad) / 2;
-      std::string here = fault(middle);
-      if (here.empty()) {
-        good = middle;
-      } else {
-        bad = middle;
-        reason = std::move(here);
-      }
-    }
-    const double rounded = std::trunc(good * decimals) / decimals;
-    return {std::abs(rounded) < std::abs(core) ? core : rounded, std::move(reason)};
-  }
-  return end;
+RangeEnd cut(double core, const RangeEnd& end, const FaultAt& fault) {
+  RangeEnd found = first_fault(core, end.x, steps, halvings, fault);
+  if (found.reason.empty()) return end;
+  const double rounded = shortened(found.x);
+  return {std::abs(rounded) < std::abs(core) ? core : rounded, std::move(found.reason)};
 }
 
-void cut(Range& range, const Range& core, const Fault& fault) {
-  const End low = cut(core.min, {range.min, range.min_reason}, fault);
-  const End high = cut(core.max, {range.max, range.max_reason}, fault);
+void cut(Range& range, const Range& core, const FaultAt& fault) {
+  const RangeEnd low = cut(core.min, {range.min, range.min_reason}, fault);
+  const RangeEnd high = cut(core.max, {range.max, range.max_reason}, fault);
   range = {low.x, high.x, low.reason, high.reason};
 }
 
 /// Halves what lies beyond the core; all of it the last time.
 void shrink(Range& range, const Range& core, bool all) {
-  const auto nearer = [&](double x, double inner) {
-    return all ? inner : std::trunc((x + inner) / 2 * decimals) / decimals;
-  };
+  const auto nearer = [&](double x, double inner) { return all ? inner : shortened((x + inner) / 2); };
   const std::string reason = "what holds could not be proved any further";
   if (range.min < core.min) {
     range.min = std::min(core.min, nearer(range.min, core.min));
@@ -129,15 +99,15 @@ class Extension {
   /// Ends the range where something is seen to go wrong. What is so from the start, as when a handle is pulled off, ends
   /// nothing; a side on which parts run into each other from the start goes no farther than the search looked.
   void cut_where_seen(Range& range, double least) const {
-    const auto end_of = [&](double side, End end) {
+    const auto end_of = [&](double side, RangeEnd end) {
       if (std::abs(end.x) <= least_seen) return end;
       Clearance clearance(shape_, program_, layer_);
       const std::string reason = clearance.fault(side * least_seen);
       if (clearance.accept(side * least_seen) && std::abs(end.x) > least) end = {side * least, reason};
       return cut(side * least_seen, end, [&](double x) { return clearance.fault(x); });
     };
-    const End low = end_of(-1, {range.min, range.min_reason});
-    const End high = end_of(1, {range.max, range.max_reason});
+    const RangeEnd low = end_of(-1, {range.min, range.min_reason});
+    const RangeEnd high = end_of(1, {range.max, range.max_reason});
     range = {low.x, high.x, low.reason, high.reason};
   }
 
@@ -198,7 +168,7 @@ class Extension {
            });
   }
 
-  Fault drifting(const std::vector<Kept>& kept) const {
+  FaultAt drifting(const std::vector<Kept>& kept) const {
     std::vector<double> values;
     for (const Layer& layer : program_.layers) values.push_back(layer.parameter.value);
     return [this, &kept, values, evaluator = Evaluator(program_, shape_)](double x) mutable -> std::string {

@@ -6,7 +6,9 @@
 #include <set>
 
 #include "core/base/random.h"
+#include "core/prove/first_fault.h"
 #include "core/prove/prove.h"
+#include "core/prove/scope.h"
 
 namespace parsel {
 
@@ -15,7 +17,6 @@ namespace {
 constexpr std::uint64_t sampling_seed = 1;
 constexpr int random_settings = 48;
 constexpr int halvings = 7;
-constexpr double decimals = 1e4;
 
 using Setting = std::vector<double>;
 
@@ -56,31 +57,15 @@ std::vector<Setting> settings_of(const Program& program) {
 }
 
 /// From a sound setting of slider l towards `end`: the last sound one, and what goes wrong beyond.
-std::pair<double, std::string> reach(const Together& together, Setting setting, std::size_t l, double end) {
+RangeEnd reach(const Together& together, Setting setting, std::size_t l, double end) {
   const double start = setting[l];
-  double good = start;
-  const auto fault_at = [&](double value) {
+  RangeEnd found = first_fault(start, end, stop_steps, halvings, [&](double value) {
     setting[l] = value;
     return together.fault(setting);
-  };
-  for (int i = 1; i <= stop_steps && start != end; ++i) {
-    double bad = i == stop_steps ? end : start + (end - start) * i / stop_steps;
-    std::string reason = fault_at(bad);
-    if (reason.empty()) {
-      good = bad;
-      continue;
-    }
-    for (int k = 0; k < halvings; ++k) {
-      const double middle = (good + bad) / 2;
-      std::string here = fault_at(middle);
-      (here.empty() ? good : bad) = middle;
-      if (!here.empty()) reason = std::move(here);
-    }
-    // Rounded towards where it is sound.
-    const double rounded = start + std::trunc((good - start) * decimals) / decimals;
-    return {rounded, reason};
-  }
-  return {end, ""};
+  });
+  // Rounded towards where it is sound.
+  if (!found.reason.empty()) found.x = start + shortened(found.x - start);
+  return found;
 }
 
 SliderStop stop_of(const Together& together, const Program& program, std::size_t l) {
@@ -92,8 +77,8 @@ SliderStop stop_of(const Together& together, const Program& program, std::size_t
     setting[l] = 0;
     if (!together.fault(setting).empty()) return {p.value, p.value, fault, fault};
   }
-  const auto low = reach(together, setting, l, p.min), high = reach(together, setting, l, p.max);
-  return {low.first, high.first, low.second, high.second};
+  const RangeEnd low = reach(together, setting, l, p.min), high = reach(together, setting, l, p.max);
+  return {low.x, high.x, low.reason, high.reason};
 }
 
 }  // namespace
@@ -118,11 +103,7 @@ StackVerdict judge_stack(const Shape& shape, const Program& program) {
 
 void prove_anew(const Shape& shape, Program& program) {
   for (std::size_t l = 0; l < program.layers.size(); ++l) {
-    std::set<std::string> disabled;
-    for (const RelationReport& report : program.layers[l].relations) {
-      if (report.status == RelationStatus::disabled) disabled.insert(report.id);
-    }
-    program.layers[l].relations = prove_relations(shape, program, l, disabled);
+    program.layers[l].relations = prove_relations(shape, program, l, disabled_in(program.layers[l]));
   }
 }
 

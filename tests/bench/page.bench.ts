@@ -12,7 +12,8 @@ import type { Page } from 'playwright-core';
 import { expect, it } from 'vitest';
 import type { Program, Shape, Statement } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
-import { stoolGltf, toGlb } from '../e2e/fixture';
+import { toGlb } from '../../web/tools/glb.mjs';
+import { stoolGltf } from '../e2e/fixture';
 import { openModel, openPage, useSite } from '../e2e/harness';
 
 declare const parsel: DebugHandle;

@@ -1,11 +1,10 @@
 // For everybody: axe finds nothing serious in either theme and on a phone, and the keyboard reaches everything.
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
-import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { program, stool } from './fixture';
-import { openModel, outputFolder, useSite } from './harness';
+import { addEdits, openModel, outputFolder, shapeOf, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -14,7 +13,7 @@ const site = useSite();
 /** With a broken, a disabled and a sampled relation, so that all their colours are on the page. */
 async function prepared(options: Parameters<typeof openModel>[3]): Promise<{ page: Page; complaints: string[] }> {
   const watched = await openModel(site.browser, site.url, stool, options);
-  const shape = (await watched.page.evaluate(() => parsel.document().model?.shape)) as Shape;
+  const shape = await shapeOf(watched.page);
   const edits = program(shape);
   const [first, ...rest] = edits.layers;
   if (first === undefined) throw new Error('the program has no layer');
@@ -24,11 +23,10 @@ async function prepared(options: Parameters<typeof openModel>[3]): Promise<{ pag
     worst: 0.01,
     proof: 'sampled' as const,
   }));
-  await watched.page.evaluate((all) => parsel.addProgram(all, 'test'), {
+  await addEdits(watched.page, {
     ...edits,
     layers: [{ ...first, relations }, ...rest],
   });
-  await watched.page.locator('.card').nth(2).waitFor();
   return watched;
 }
 
@@ -72,7 +70,6 @@ describe.each([
     const found: string[] = [];
     for (const [name, enter] of states) {
       await enter();
-      await page.waitForTimeout(200);
       found.push(...(await serious(page)).map((text) => `${name}: ${text}`));
       await page.screenshot({ path: `${outputFolder}/${name}-${colorScheme}-${viewport.width}.png` });
       if (!['main', 'hand', 'selected', 'apart'].includes(name)) await page.keyboard.press('Escape');

@@ -1,10 +1,9 @@
 // What the browser keeps: a reload right after a change, two tabs with work of their own, a duplicated tab, a new one.
 import type { BrowserContext, Page } from 'playwright-core';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
-import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { openModel, outputFolder, pick, saved, useSite } from './harness';
+import { addEdits, openModel, outputFolder, pick, saved, shapeOf, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -24,11 +23,7 @@ afterEach(async () => {
 const values = (of: Page) => of.evaluate(() => parsel.document().layers.map(({ value }) => value));
 const name = (of: Page) => of.evaluate(() => parsel.document().model?.files.name);
 
-async function addEdits(to: Page): Promise<void> {
-  const shape = (await to.evaluate(() => parsel.document().model?.shape)) as Shape;
-  await to.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
-  await to.locator('.card').nth(2).waitFor();
-}
+const addThree = async (to: Page) => addEdits(to, program(await shapeOf(to)));
 
 /** Another tab of the same browser. */
 async function newTab(address = page.url()): Promise<Page> {
@@ -44,7 +39,7 @@ const openSecond = async (tab: Page) => {
 
 describe('the work of a tab', () => {
   it('is there after a reload that leaves no time to save', async () => {
-    await addEdits(page);
+    await addThree(page);
     await saved(page);
     await page.getByRole('slider').first().fill('0.31');
     await page.reload();
@@ -53,7 +48,7 @@ describe('the work of a tab', () => {
   });
 
   it('is its own: two tabs do not write over each other', async () => {
-    await addEdits(page);
+    await addThree(page);
     const other = await newTab();
     await openSecond(other);
     await page.getByRole('slider').first().fill('0.2');
@@ -67,7 +62,7 @@ describe('the work of a tab', () => {
   });
 
   it('is where a new tab begins, and goes on by itself from there', async () => {
-    await addEdits(page);
+    await addThree(page);
     await saved(page);
     const other = await newTab();
     await other.locator('.card').nth(2).waitFor();
@@ -79,7 +74,7 @@ describe('the work of a tab', () => {
   });
 
   it('stays with the first when a tab is duplicated', async () => {
-    await addEdits(page);
+    await addThree(page);
     await saved(page);
     // A duplicate begins with the other's session storage, the name of its record included.
     const kept = await page.evaluate(() => ({ ...sessionStorage }));
@@ -98,7 +93,7 @@ describe('the work of a tab', () => {
   });
 });
 
-describe('seven tabs', { timeout: 240_000 }, () => {
+describe('seven tabs', () => {
   const names = Array.from({ length: 7 }, (_, i) => `model-${i}`);
 
   /** One with each model. The first is the page of the test. */
@@ -148,7 +143,7 @@ describe('a browser that keeps nothing', () => {
         throw new DOMException('', kind);
       };
     }, fault);
-    await addEdits(page);
+    await addThree(page);
     await expect.poll(() => page.getByRole('alert').textContent()).toMatch(sentence);
     await page.screenshot({ path: `${outputFolder}/unkept.png` });
     await page.getByRole('slider').first().fill('0.2');

@@ -1,11 +1,10 @@
 // Cards together: compared with the model as it was, reset, kept under names, folded, grouped, copied, reopened.
 import type { Page } from 'playwright-core';
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { program, stool } from './fixture';
-import { openModel, outputFolder, useSite } from './harness';
+import { addEdits, openInstead, outputFolder, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -14,11 +13,9 @@ const site = useSite();
 let page: Page;
 let complaints: string[];
 beforeEach(async () => {
-  await page?.context().close();
-  ({ page, complaints } = await openModel(site.browser, site.url, stool));
-  const shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
-  await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
-  await page.locator('.card').nth(2).waitFor();
+  const opened = await openInstead(page, site, stool);
+  ({ page, complaints } = opened);
+  await addEdits(page, program(opened.shape));
 });
 
 const values = () => page.evaluate(() => parsel.document().layers.map(({ value }) => value));
@@ -105,7 +102,7 @@ describe('a count', () => {
     await page.evaluate(() => parsel.client()); // the core has started
     await page.getByLabel('What to change').fill('two more slats');
     await page.getByLabel('What to change').press('Enter');
-    await page.locator('.card').nth(3).waitFor({ timeout: 60_000 });
+    await page.locator('.card').nth(3).waitFor();
     const anchor = () =>
       page.evaluate(() => {
         const seed = parsel.document().layers[3]?.layer.statements.find(({ why }) => why?.kind === 'seed');
@@ -114,14 +111,14 @@ describe('a count', () => {
     expect(await anchor()).toBe('fit');
     const own = page.locator('.card').nth(3);
     await own.getByRole('button', { name: /^Keep the spacing instead/ }).click();
-    await own.getByRole('button', { name: /^Keep the room instead/ }).waitFor({ timeout: 60_000 });
+    await own.getByRole('button', { name: /^Keep the room instead/ }).waitFor();
     expect(await anchor()).toBe('middle');
     await page.getByRole('button', { name: 'Undo: change edit' }).click();
     expect(await anchor()).toBe('fit');
     await menu('two more slats', 'Change…');
     await page.getByLabel('Change the edit').getByRole('radio', { name: 'Spacing' }).check({ force: true });
     await page.getByLabel('Change the edit').getByRole('button', { name: 'Apply' }).click();
-    await page.getByRole('button', { name: 'Undo: change edit' }).waitFor({ timeout: 60_000 });
+    await page.getByRole('button', { name: 'Undo: change edit' }).waitFor();
     expect(await anchor()).toBeNull();
     expect(await page.evaluate(() => parsel.document().layers[3]?.layer.request)).toBe('two more slats');
     expect(complaints).toEqual([]);

@@ -4,9 +4,10 @@ import { WebIO } from '@gltf-transform/core';
 import type { BrowserContext, Page } from 'playwright-core';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
+import { toGlb } from '../../web/tools/glb.mjs';
 import { serious } from './axe';
-import { stool, stoolGltf, toGlb } from './fixture';
-import { openModel, outputFolder, saved, useSite } from './harness';
+import { stool, stoolGltf } from './fixture';
+import { openModel, outputFolder, saved, settled, useSite } from './harness';
 import { tableInOnePiece } from './one_mesh';
 
 declare const parsel: DebugHandle;
@@ -158,7 +159,7 @@ it('on a phone the cut has room, in the dark as well', async () => {
   await part('seat').click();
   await selection().getByRole('button', { name: 'Cut…' }).click();
   await page.getByRole('region', { name: 'Cut' }).waitFor();
-  await page.waitForTimeout(300);
+  await settled(page);
   await page.screenshot({ path: `${outputFolder}/carve-phone.png` });
   expect(await serious(page)).toEqual([]);
 });

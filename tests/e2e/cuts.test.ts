@@ -139,7 +139,7 @@ difference() {
   };
   /** How much the middle of each picture covers, 0 … 255. */
   const middles = () =>
-    page.locator('.strip img').evaluateAll((images) =>
+    page.locator('.variations img').evaluateAll((images) =>
       (images as HTMLImageElement[]).map((image) => {
         const canvas = Object.assign(document.createElement('canvas'), { width: 1, height: 1 });
         const context = canvas.getContext('2d');

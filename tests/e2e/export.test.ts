@@ -8,7 +8,7 @@ import { gltfJson } from '../../web/src/session/files';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { compress } from '../web/compressed';
 import { stool } from './fixture';
-import { download, openModel, useSite } from './harness';
+import { download, openModel, shapeOf, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -51,8 +51,6 @@ afterEach(async () => {
   expect(complaints).toEqual([]);
   await page.context().close();
 });
-
-const shapeOf = async (of: Page) => (await of.evaluate(() => parsel.document().model?.shape)) as Shape;
 
 /** Corners of the real parts in the model's own frame, by node and primitive. */
 async function cornersOf(of: Page): Promise<Map<string, number[]>> {

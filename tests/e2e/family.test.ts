@@ -78,7 +78,7 @@ describe('a CAD program', () => {
     const kinds = page.getByRole('region', { name: 'Variations' }).getByRole('listitem');
     await expect.poll(() => kinds.count()).toBe(7); // and as it is drawn
     expect(await page.getByRole('button', { name: 'as drawn' }).getAttribute('aria-pressed')).toBe('true');
-    await expect.poll(() => page.locator('.strip img').count()).toBe(7);
+    await expect.poll(() => page.locator('.variations img').count()).toBe(7);
     const count = await page.getByRole('region', { name: 'Sliders' }).getByRole('slider').count();
     expect(count).toBeGreaterThan(8);
     expect(count).toBeLessThan(20);

@@ -1,6 +1,7 @@
 // A small model made here, with what real ones have: a mesh shared by nodes, a node that mirrors, a parent that turns, a
 // row of equal parts, prisms that are no boxes. And the edits that the tests make of it.
 import type { Layer, Program, Shape, Statement } from '../../web/src/program/types';
+import { type Gltf, toGlb } from '../../web/tools/glb.mjs';
 
 type Vec = readonly [number, number, number];
 
@@ -73,11 +74,6 @@ const nodes: NodeData[] = [
   ...[-0.2, -0.1, 0, 0.1, 0.2].map((x): NodeData => ({ name: 'slat', mesh: 2, translation: [x, 0.15, 0] })),
 ];
 
-export interface Gltf {
-  json: Record<string, unknown>;
-  binary: Buffer;
-}
-
 /** @param rename gives nodes other names */
 export function stoolGltf(rename: (name: string) => string = (name) => name): Gltf {
   const views: { byteOffset: number; byteLength: number; buffer: 0 }[] = [];
@@ -140,23 +136,6 @@ export const boxFaces = [
   [0, 4, 6, 2],
   [1, 3, 7, 5],
 ] as const;
-
-export function toGlb({ json, binary }: Gltf): Buffer {
-  const text = Buffer.from(JSON.stringify(json));
-  const padded = Buffer.concat([text, Buffer.alloc((4 - (text.length % 4)) % 4, 0x20)]);
-  const chunk = (type: number, data: Buffer) => {
-    const header = Buffer.alloc(8);
-    header.writeUInt32LE(data.length, 0);
-    header.writeUInt32LE(type, 4);
-    return Buffer.concat([header, data]);
-  };
-  const body = Buffer.concat([chunk(0x4e4f534a, padded), chunk(0x004e4942, binary)]);
-  const header = Buffer.alloc(12);
-  header.writeUInt32LE(0x46546c67, 0);
-  header.writeUInt32LE(2, 4);
-  header.writeUInt32LE(12 + body.length, 8);
-  return Buffer.concat([header, body]);
-}
 
 export const stool = toGlb(stoolGltf());
 

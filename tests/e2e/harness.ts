@@ -15,6 +15,8 @@ import {
   type Page,
 } from 'playwright-core';
 import { afterAll, beforeAll } from 'vitest';
+import type { Protocol } from '../../web/src/llm/providers';
+import type { Program, Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { type ProviderServer, startProviders } from '../web/provider_server';
 
@@ -160,6 +162,7 @@ export async function openPage(
     serviceWorkers: 'block', // it would answer what tests answer for the server
     ...options,
   });
+  context.setDefaultTimeout(60_000); // as in web/vitest.e2e.config.ts
   await prepare(context);
   const page = await context.newPage();
   const complaints: string[] = [];
@@ -192,6 +195,46 @@ export async function openModel(
   await pick(watched.page, [{ name, mimeType: 'model/gltf-binary', buffer: model }]);
   await watched.page.waitForFunction(() => parsel.stage()?.isShown());
   return watched;
+}
+
+/** openModel() in place of the page that the test before left. */
+export async function openInstead(
+  last: Page | undefined,
+  site: { readonly url: string; readonly browser: Browser },
+  model: Buffer,
+): Promise<WatchedPage & { shape: Shape }> {
+  await last?.context().close();
+  const watched = await openModel(site.browser, site.url, model);
+  return { ...watched, shape: await shapeOf(watched.page) };
+}
+
+/** The shape of the model that is open. */
+export async function shapeOf(page: Page): Promise<Shape> {
+  const shape = await page.evaluate(() => parsel.document().model?.shape);
+  if (!shape) throw new Error('no model is open');
+  return shape;
+}
+
+/** Adds the layers of a program, and waits until their cards are there. */
+export async function addEdits(page: Page, edits: Program): Promise<void> {
+  const before = await page.locator('.card').count();
+  await page.evaluate((all) => parsel.addProgram(all, 'test'), edits);
+  await page
+    .locator('.card')
+    .nth(before + edits.layers.length - 1)
+    .waitFor();
+}
+
+/** Fills in the dialog of the language model: a key for a server that speaks a protocol. The dialog stays open. */
+export async function useKey(page: Page, protocol: Protocol, base: string, votes: number): Promise<void> {
+  await page.getByRole('button', { name: /^Language model/ }).click();
+  await page.getByLabel('Provider').selectOption(protocol);
+  await page.getByLabel('Base URL').fill(base);
+  await page.getByLabel('Base URL').press('Tab');
+  await page.getByLabel('Key', { exact: true }).fill('sk-secret');
+  await page.getByLabel('Model', { exact: true }).fill('tester');
+  await page.getByLabel('Answers to each question').fill(String(votes));
+  await page.getByLabel('Answers to each question').press('Tab');
 }
 
 /** A gallery of one model, which the page opens by itself. */
@@ -234,6 +277,23 @@ export async function download(page: Page, item: string): Promise<string> {
   const path = `${outputFolder}/${event.suggestedFilename()}`;
   await event.saveAs(path);
   return path;
+}
+
+/** Until what the style sheets move has arrived: nothing fades or slides in any more. What turns for ever does not count. */
+export async function settled(page: Page): Promise<void> {
+  await page.evaluate(async () => {
+    const frame = () => new Promise(requestAnimationFrame);
+    for (;;) {
+      // A frame for what has been clicked to be shown, and one for its transitions to begin.
+      await frame();
+      await frame();
+      const passing = document
+        .getAnimations()
+        .filter(({ playState, effect }) => playState === 'running' && effect?.getComputedTiming().endTime !== Infinity);
+      if (passing.length === 0) return;
+      await Promise.allSettled(passing.map(({ finished }) => finished));
+    }
+  });
 }
 
 /** The canvas once nothing moves any more. */

@@ -4,7 +4,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { stool } from './fixture';
-import { openModel, outputFolder, saved, useSite } from './harness';
+import { openInstead, outputFolder, saved, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -12,8 +12,7 @@ const site = useSite();
 let page: Page;
 let complaints: string[];
 beforeEach(async () => {
-  await page?.context().close();
-  ({ page, complaints } = await openModel(site.browser, site.url, stool));
+  ({ page, complaints } = await openInstead(page, site, stool));
 });
 
 /** How many joints there are between the seat and real parts of a label. */

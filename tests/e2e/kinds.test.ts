@@ -4,9 +4,9 @@ import type { Page } from 'playwright-core';
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { readRecordings, renderKinds } from '../../web/tools/prompts.mjs';
-import { call, loadWithCad } from '../web/module';
+import { callerOf, loadWithCad } from '../web/module';
 import { serious } from './axe';
-import { openPage, useProviders, useSite, withoutGallery } from './harness';
+import { openPage, useKey, useProviders, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -35,7 +35,7 @@ describe('suggested kinds', () => {
   it('come in as six cards with pictures, without a key', async () => {
     await page.getByRole('button', { name: 'Suggest kinds' }).click();
     await expect.poll(() => cards().count()).toBe(6);
-    await expect.poll(() => cards().locator('img').count(), { timeout: 30_000 }).toBe(6);
+    await expect.poll(() => cards().locator('img').count()).toBe(6);
     await page.getByText('6 drawn · recorded answers').waitFor();
     expect(await cards().first().textContent()).toContain('answers name it');
     await page.getByText('Also named').click();
@@ -61,24 +61,15 @@ describe('suggested kinds', () => {
 });
 
 /** Answers come from a server that stands for a provider. */
-async function useKey(page: Page): Promise<void> {
-  await page.getByRole('button', { name: /^Language model/ }).click();
-  await page.getByLabel('Provider').selectOption('openai');
-  await page.getByLabel('Base URL').fill(providers.base('openai'));
-  await page.getByLabel('Base URL').press('Tab');
-  await page.getByLabel('Key', { exact: true }).fill('sk-secret');
-  await page.getByLabel('Model', { exact: true }).fill('tester');
-  await page.getByLabel('Answers to each question').fill('3');
-  await page.getByLabel('Answers to each question').press('Tab');
+async function askServer(page: Page): Promise<void> {
+  await useKey(page, 'openai', providers.base('openai'), 3);
   await page.getByRole('button', { name: 'Done' }).click();
 }
 
 describe('with a key', () => {
   it('kinds stream in, can be stopped and tried again, and one of your own is drawn', async () => {
-    const module = await loadWithCad();
+    const core = callerOf(await loadWithCad());
     const recordings = readRecordings();
-    const core = (method: string, parameters: unknown, buffers?: Uint8Array[]) =>
-      call<unknown>(module, method, parameters, buffers);
     const known = renderKinds(core, recordings).flatMap(({ model, request, prompts: [prompt] }) => {
       const reply = prompt && recordings.get(prompt.hash)?.replies[0]?.text;
       return model === 'bottle_program' && prompt && reply ? [{ request, text: prompt.text, reply }] : [];
@@ -93,7 +84,7 @@ describe('with a key', () => {
       });
 
     const { page, complaints } = await open(/^Bottle$/, /OpenSCAD programs/);
-    await useKey(page);
+    await askServer(page);
     replay(true);
     const panel = page.getByRole('region', { name: 'Suggested kinds' });
     await page.getByRole('button', { name: 'Suggest kinds' }).click();
@@ -114,7 +105,7 @@ describe('with a key', () => {
 
   it('a picture with numbers goes along when names are asked for; senseless answers are said to be', async () => {
     const { page, complaints } = await open(/^Floor lamp, nameless/, /Models without names/);
-    await useKey(page);
+    await askServer(page);
     providers.behave(() => ({
       kind: 'reply',
       text: 'A lamp.\n```json\n{"category": "lamp", "front": "up", "parts": {}}\n```',

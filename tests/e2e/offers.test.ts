@@ -58,7 +58,7 @@ describe('a length that is typed', () => {
     const width = page.getByLabel('width, type a length', { exact: true });
     await width.fill('60');
     await width.press('Enter');
-    await page.locator('.card').waitFor({ timeout: 60_000 });
+    await page.locator('.card').waitFor();
     expect(await layers(page)).toEqual(['Width']);
     await expect.poll(() => width.inputValue()).toBe('60');
     await width.fill('0.55 m');
@@ -67,7 +67,7 @@ describe('a length that is typed', () => {
     const most = await page.evaluate(() => parsel.document().layers[0]?.layer.parameter.max ?? 0);
     await width.fill('115');
     await width.press('Enter');
-    await expect.poll(() => width.inputValue(), { timeout: 30_000 }).toBe('115');
+    await expect.poll(() => width.inputValue()).toBe('115');
     expect(await layers(page)).toEqual(['Width']);
     expect(await page.evaluate(() => parsel.document().layers[0]?.layer.parameter.max ?? 0)).toBeGreaterThan(most);
     await page.getByLabel('Unit of lengths').selectOption('in');

@@ -5,11 +5,11 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
-import type { Program, Shape } from '../../web/src/program/types';
+import type { Program } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { compress } from '../web/compressed';
 import { program, stool } from './fixture';
-import { dist, openModel, openPage, pick, saved, serve, useSite } from './harness';
+import { addEdits, dist, openModel, openPage, pick, saved, serve, shapeOf, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -67,16 +67,14 @@ describe('a newer version', () => {
   const notice = (page: Page) =>
     expect.poll(() => page.locator('.status-line').getByRole('status').textContent()).toMatch(/new version is ready/);
 
-  it('is announced in every page, and comes with the work as it is, only where it is asked for', {
-    timeout: 240_000,
-  }, async () => {
+  it('is announced in every page, and comes with the work as it is, only where it is asked for', async () => {
     const folder = await mkdtemp(join(tmpdir(), 'parsel-build-'));
     await cp(dist, folder, { recursive: true });
     const { url, server } = await serve(folder);
     const { page: one, complaints } = await openModel(site.browser, url, stool, { serviceWorkers: 'allow' });
     await expect.poll(() => kept(one)).toBe('activated');
-    const edits: Program = program((await one.evaluate(() => parsel.document().model?.shape)) as Shape);
-    await one.evaluate((all) => parsel.addProgram(all, 'test'), edits);
+    const edits: Program = program(await shapeOf(one));
+    await addEdits(one, edits);
     await one.getByRole('slider').first().fill('0.31');
     await saved(one);
     const two = await one.context().newPage();

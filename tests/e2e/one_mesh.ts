@@ -1,5 +1,6 @@
 // A model in one piece: a table of five boxes in one mesh, which nobody has named.
-import { boxFaces, toGlb } from './fixture';
+import { meshGlb } from '../../web/tools/glb.mjs';
+import { boxFaces } from './fixture';
 
 type Vec = readonly [number, number, number];
 
@@ -14,34 +15,7 @@ export function oneMesh(boxes: readonly (readonly [Vec, Vec])[]): Buffer {
     }
     for (const [a, b, c, d] of boxFaces) indices.push(...[a, b, c, a, c, d].map((k) => first + k));
   }
-  const bound = (pick: (...values: number[]) => number) =>
-    [0, 1, 2].map((i) => pick(...positions.filter((_, k) => k % 3 === i).map(Math.fround)));
-  const points = Buffer.from(Float32Array.from(positions).buffer);
-  const corners = Buffer.from(Uint32Array.from(indices).buffer);
-  const json = {
-    asset: { version: '2.0' },
-    scene: 0,
-    scenes: [{ nodes: [0] }],
-    nodes: [{ mesh: 0 }],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
-    accessors: [
-      {
-        bufferView: 0,
-        componentType: 5126,
-        type: 'VEC3',
-        count: positions.length / 3,
-        min: bound(Math.min),
-        max: bound(Math.max),
-      },
-      { bufferView: 1, componentType: 5125, type: 'SCALAR', count: indices.length },
-    ],
-    bufferViews: [
-      { buffer: 0, byteOffset: 0, byteLength: points.length },
-      { buffer: 0, byteOffset: points.length, byteLength: corners.length },
-    ],
-    buffers: [{ byteLength: points.length + corners.length }],
-  };
-  return toGlb({ json, binary: Buffer.concat([points, corners]) });
+  return meshGlb(Float32Array.from(positions), indices);
 }
 
 const leg = (x: number, z: number): readonly [Vec, Vec] => [

@@ -7,8 +7,9 @@ import { zipSync } from 'fflate';
 import type { Page } from 'playwright-core';
 import { beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
+import { type Gltf, toGlb } from '../../web/tools/glb.mjs';
 import { compress } from '../web/compressed';
-import { type Gltf, stool, stoolGltf, toGlb } from './fixture';
+import { stool, stoolGltf } from './fixture';
 import { drop, openModel, openPage, pick, useSite, withGalleryOf, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
@@ -165,7 +166,7 @@ describe('what cannot be opened', () => {
     ],
   ])('is refused by name: %s', async (_, name, content, sentence) => {
     await pick(page, [file(name, content())]);
-    await expect.poll(() => page.getByRole('alert').textContent(), { timeout: 20_000 }).toMatch(sentence);
+    await expect.poll(() => page.getByRole('alert').textContent()).toMatch(sentence);
     expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('stool');
     expect(await parts()).toBe(11);
     expect(complaints).toEqual([]);

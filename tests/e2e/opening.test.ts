@@ -1,8 +1,9 @@
 // Before and after a model is opened: the first screen, the drop zone, what was found, hosts of models.
 import { describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
+import { toGlb } from '../../web/tools/glb.mjs';
 import { serious } from './axe';
-import { stool, stoolGltf, toGlb } from './fixture';
+import { stool, stoolGltf } from './fixture';
 import { openModel, openPage, outputFolder, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;

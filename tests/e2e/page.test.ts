@@ -3,7 +3,8 @@ import type { AddressInfo } from 'node:net';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
-import { stool, stoolGltf, toGlb } from './fixture';
+import { toGlb } from '../../web/tools/glb.mjs';
+import { stool, stoolGltf } from './fixture';
 import { openModel, openPage, outputFolder, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
@@ -115,7 +116,7 @@ describe('on a phone', () => {
     await tab.tap();
     await hand.waitFor({ state: 'detached' });
     await page.screenshot({ path: `${outputFolder}/phone-folded.png` });
-    await tab.tap({ timeout: 5000 }); // Playwright refuses when something lies over it
+    await tab.tap(); // Playwright refuses when something lies over it
     await hand.waitFor();
     await page.screenshot({ path: `${outputFolder}/phone-unfolded.png` });
     await page.context().close();

@@ -4,7 +4,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { openModel, outputFolder, saved, stillPicture, useSite } from './harness';
+import { addEdits, openInstead, outputFolder, saved, stillPicture, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -13,9 +13,7 @@ let page: Page;
 let complaints: string[];
 let shape: Shape;
 beforeEach(async () => {
-  await page?.context().close();
-  ({ page, complaints } = await openModel(site.browser, site.url, stool));
-  shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
+  ({ page, complaints, shape } = await openInstead(page, site, stool));
 });
 
 const partNames = () => page.locator('.part .name').allTextContents();
@@ -31,8 +29,7 @@ async function giveLabel(part: string, text: string): Promise<void> {
 
 describe('a label', () => {
   it('renames the part and its id, keeps its edits, and is taken back by undo', async () => {
-    await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
-    await page.locator('.card').nth(2).waitFor();
+    await addEdits(page, program(shape));
     await page.getByRole('slider').first().fill('0.3');
     const before = await ids();
     const corners = await page.evaluate(() => parsel.corners());
@@ -50,8 +47,7 @@ describe('a label', () => {
   });
 
   it('dissolves a row; the edit of its count is kept, but rests', async () => {
-    await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
-    await page.locator('.card').nth(2).waitFor();
+    await addEdits(page, program(shape));
     const members = shape.relations.find(({ kind }) => kind === 'translation')?.parts ?? [];
     const middle = shape.parts.find(({ id }) => id === members[1]);
     await page.locator('.part .twist[aria-expanded]').first().click();

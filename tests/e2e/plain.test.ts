@@ -4,7 +4,7 @@ import { describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { stool } from './fixture';
-import { openModel, outputFolder, useProviders, useSite } from './harness';
+import { openModel, outputFolder, saved, useKey, useProviders, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -130,7 +130,7 @@ describe('a model of one’s own, without a key', () => {
     await expect.poll(moved).toEqual([['leg_front_left', 'left']]);
     await page.getByText('Its sides were said looking at its left').waitFor();
     await page.screenshot({ path: `${outputFolder}/plain-sides-read.png` });
-    await page.waitForTimeout(600); // it is written
+    await saved(page);
     await page.reload();
     await page.waitForFunction(() => parsel.stage()?.isShown());
     expect(await moved()).toEqual([['leg_front_left', 'left']]);
@@ -157,12 +157,7 @@ describe('a model of one’s own, without a key', () => {
 describe('with a key', () => {
   it('what is sure costs nothing, and a language model can be asked instead', async () => {
     const { page, complaints } = await openModel(site.browser, site.url, stool);
-    await page.getByRole('button', { name: /^Language model/ }).click();
-    await page.getByLabel('Provider').selectOption('openai');
-    await page.getByLabel('Base URL').fill(providers.base('openai'));
-    await page.getByLabel('Base URL').press('Tab');
-    await page.getByLabel('Key', { exact: true }).fill('sk-secret');
-    await page.getByLabel('Model', { exact: true }).fill('tester');
+    await useKey(page, 'openai', providers.base('openai'), 5);
     await page.getByRole('button', { name: 'Done' }).click();
     const answer = {
       edits: [{ op: 'translate', part: 'seat', direction: [0, 1, 0], amount: 'x' }],
@@ -200,7 +195,6 @@ describe.each([
     const { page } = await openModel(site.browser, site.url, stool, { colorScheme, viewport });
     const found: string[] = [];
     const look = async (name: string) => {
-      await page.waitForTimeout(300);
       found.push(...(await serious(page)).map((text) => `${name}: ${text}`));
       await page.screenshot({ path: `${outputFolder}/plain-${name}-${colorScheme}-${viewport.width}.png` });
     };

@@ -9,9 +9,10 @@ import { fileLimits } from '../../web/src/session/files';
 import { partsOf } from '../../web/src/solid/parts';
 import { boundsOf, volumeOf, weld } from '../../web/src/solid/weld';
 import type { DebugHandle } from '../../web/src/ui/debug';
+import { toGlb } from '../../web/tools/glb.mjs';
 import { serious } from './axe';
-import { program, stool, stoolGltf, toGlb } from './fixture';
-import { openModel, outputFolder, useSite } from './harness';
+import { program, stool, stoolGltf } from './fixture';
+import { addEdits, openModel, outputFolder, shapeOf, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -44,8 +45,7 @@ describe('a model for printing', () => {
     const { page, complaints } = await openModel(site.browser, site.url, stool);
     const fetched: string[] = [];
     page.on('request', (request) => fetched.push(request.url()));
-    const shape = await page.evaluate(() => parsel.document().model?.shape);
-    if (!shape) throw new Error('no model');
+    const shape = await shapeOf(page);
     const edits = program(shape);
     await page.evaluate(
       (all) => {
@@ -126,13 +126,12 @@ describe('a model for printing', () => {
 
   it('whose parts an edit has pulled apart is in pieces, and one again where its gaps are closed', async () => {
     const { page, complaints } = await openModel(site.browser, site.url, stool);
-    const shape = await page.evaluate(() => parsel.document().model?.shape);
-    if (!shape) throw new Error('no model');
+    const shape = await shapeOf(page);
     const [first] = program(shape).layers;
     if (first === undefined) throw new Error('the program has no layer');
     const raise = { op: 'translate', part: 'seat', feature: [0, 0, 0], direction: [0, 1, 0], amount: 'x1' } as const;
     const raised = { ...first, request: 'raise the seat', statements: [raise] };
-    await page.evaluate((all) => parsel.addProgram(all, 'test'), { ...program(shape), layers: [raised] });
+    await addEdits(page, { ...program(shape), layers: [raised] });
     await page.getByRole('slider').first().fill('0.05');
 
     const dialog = await openDialog(page);
@@ -170,7 +169,7 @@ describe('a model for printing', () => {
     if (!shape || first === undefined || leg === undefined) throw new Error('no model');
     const sink = { op: 'translate', part: leg, feature: [0, 0, 0], direction: [0, -1, 0], amount: 'x1' } as const;
     const layer = { ...first, request: 'sink a leg', statements: [sink] };
-    await page.evaluate((all) => parsel.addProgram(all, 'test'), { ...program(shape), layers: [layer] });
+    await addEdits(page, { ...program(shape), layers: [layer] });
     await page.getByRole('slider').first().fill('0.01');
 
     const exported = async () => {

@@ -3,7 +3,7 @@ import type { Page } from 'playwright-core';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { stool } from './fixture';
-import { openModel, outputFolder, useSite } from './harness';
+import { openInstead, outputFolder, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -11,8 +11,7 @@ const site = useSite();
 let page: Page;
 let complaints: string[];
 beforeEach(async () => {
-  await page?.context().close();
-  ({ page, complaints } = await openModel(site.browser, site.url, stool));
+  ({ page, complaints } = await openInstead(page, site, stool));
   await page.getByRole('button', { name: 'seat', exact: true }).click();
   await handle('Pull left of seat').waitFor();
   await page.waitForFunction(() => parsel.stage()?.isStill()); // the camera has arrived

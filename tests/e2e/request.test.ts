@@ -8,11 +8,11 @@ import type { Statement } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import type { Task } from '../../web/src/worker/protocol';
 import { renderRequests } from '../../web/tools/prompts.mjs';
-import { loadModule } from '../web/module';
+import { callerOf, loadModule } from '../web/module';
 import type { Behaviour, ReceivedCall } from '../web/provider_server';
 import { serious } from './axe';
 import { stool } from './fixture';
-import { openModel, openPage, outputFolder, pick, useProviders, useSite } from './harness';
+import { openModel, openPage, outputFolder, pick, useKey, useProviders, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -44,17 +44,9 @@ const layers = (page: Page) => page.evaluate(() => parsel.document().layers.map(
 describe('without a key', () => {
   /** recordings/chair.json as web/tools/recordings.mjs would write it, with replies by hand. */
   async function recordings(): Promise<Recordings> {
-    const module = await loadModule();
-    const [rendered] = renderRequests(
-      (method, parameters, buffers = []) => {
-        const answer = module.invoke(method, JSON.stringify(parameters), buffers, null);
-        return {
-          result: (JSON.parse(answer.json) as { result: unknown }).result,
-          buffers: answer.buffers,
-        };
-      },
-      [{ model: 'chair', request: 'widen the chair', mentioned: [] }],
-    );
+    const [rendered] = renderRequests(callerOf(await loadModule()), [
+      { model: 'chair', request: 'widen the chair', mentioned: [] },
+    ]);
     const answers: Record<Task, unknown> = {
       seed_edit: widenSeat,
       type_hints: noHints,
@@ -131,14 +123,7 @@ describe('without a key', () => {
 async function ready(protocol: Protocol, { votes = 3, ...options }: BrowserContextOptions & { votes?: number } = {}) {
   const watched = await openModel(site.browser, site.url, stool, options);
   const { page } = watched;
-  await page.getByRole('button', { name: /^Language model/ }).click();
-  await page.getByLabel('Provider').selectOption(protocol);
-  await page.getByLabel('Base URL').fill(providers.base(protocol));
-  await page.getByLabel('Base URL').press('Tab');
-  await page.getByLabel('Key', { exact: true }).fill('sk-secret');
-  await page.getByLabel('Model', { exact: true }).fill(`tester`);
-  await page.getByLabel('Answers to each question').fill(String(votes));
-  await page.getByLabel('Answers to each question').press('Tab');
+  await useKey(page, protocol, providers.base(protocol), votes);
   return watched;
 }
 const done = (page: Page) => page.getByRole('button', { name: 'Done' }).click();
@@ -491,7 +476,6 @@ describe.each([
     const { page } = await ready('openai', { colorScheme, viewport, votes: 2 });
     const found: string[] = [];
     const look = async (name: string) => {
-      await page.waitForTimeout(300);
       found.push(...(await serious(page)).map((text) => `${name}: ${text}`));
       await page.screenshot({
         path: `${outputFolder}/request-${name}-${colorScheme}-${viewport.width}.png`,

@@ -16,7 +16,7 @@ import type { DebugHandle } from '../../web/src/ui/debug';
 import { call, loadModule } from '../web/module';
 import { serious } from './axe';
 import { program, stool } from './fixture';
-import { download, launch, openModel, openPage, saved, serve, withoutGallery } from './harness';
+import { addEdits, download, launch, openModel, openPage, saved, serve, shapeOf, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -319,14 +319,12 @@ describe('a model with sliders in the page', () => {
 
   it('is written by the export menu', async () => {
     const { page: own, complaints } = await openModel(browser, page.url, stool);
-    const found = (await own.evaluate(() => parsel.document().model?.shape)) as Shape;
-    const edits = program(found);
+    const edits = program(await shapeOf(own));
     const [first, ...others] = edits.layers;
-    await own.evaluate((all) => parsel.addProgram(all, 'test'), {
+    await addEdits(own, {
       ...edits,
       layers: [{ ...first, parameter: { ...first?.parameter, value: 0.25 } }, ...others] as typeof edits.layers,
     });
-    await own.locator('.card').nth(2).waitFor();
     await own.getByRole('button', { name: 'More about Tilt a leg' }).click();
     await own.getByRole('menuitem', { name: 'Switch off' }).click();
     await saved(own);

@@ -6,8 +6,9 @@ import { type CheckedProgram, checkProgram } from '../../web/src/program/check';
 import { interpretProgram } from '../../web/src/program/interpret';
 import type { Corners, Shape, Vec3 } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
-import { program, stool, stoolGltf, toGlb, verticesOf } from './fixture';
-import { openModel, openPage, outputFolder, pick, stillPicture, useSite, withoutGallery } from './harness';
+import { toGlb } from '../../web/tools/glb.mjs';
+import { program, stool, stoolGltf, verticesOf } from './fixture';
+import { openModel, openPage, outputFolder, pick, shapeOf, stillPicture, useSite, withoutGallery } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -20,7 +21,7 @@ let checked: CheckedProgram;
 let keys: readonly number[];
 beforeAll(async () => {
   ({ page, complaints } = await openModel(site.browser, site.url, stool, { reducedMotion: 'reduce' }));
-  shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
+  shape = await shapeOf(page);
   const result = checkProgram(program(shape), shape);
   if (!result.ok) throw new Error(result.error.cause);
   checked = result.value;
@@ -222,14 +223,18 @@ describe('the cage on the graphics card', () => {
   it('survives the loss of the graphics context', async () => {
     const before = await stillPicture(page);
     await page.evaluate(async () => {
-      const gl = document.querySelector('canvas')?.getContext('webgl2');
-      const extension = gl?.getExtension('WEBGL_lose_context');
-      extension?.loseContext();
-      await new Promise((done) => setTimeout(done, 100));
-      extension?.restoreContext();
-      await new Promise((done) => setTimeout(done, 500));
+      const canvas = document.querySelector('canvas');
+      const extension = canvas?.getContext('webgl2')?.getExtension('WEBGL_lose_context');
+      if (!canvas || !extension) throw new Error('the browser cannot take the context away');
+      const told = (type: string) => new Promise((done) => canvas.addEventListener(type, done, { once: true }));
+      const lost = told('webglcontextlost');
+      extension.loseContext();
+      await lost;
+      await new Promise(requestAnimationFrame); // the event is over: now it can be given back
+      const restored = told('webglcontextrestored');
+      extension.restoreContext();
+      await restored;
     });
-    // It may take a while until the browser gives the context back; until then the picture is still as well.
     // The last bits of a colour may differ in the new context.
     await expect.poll(async () => changedShare(before, await stillPicture(page))).toBeLessThan(1e-4);
     expect(await page.locator('.card').count()).toBe(3);
@@ -267,10 +272,13 @@ function changedShare(a: Buffer, b: Buffer): Promise<number> {
 describe('a step of the slider', () => {
   it('costs little script', async () => {
     const milliseconds = await page.evaluate((key) => {
-      const steps = 500;
-      const begin = performance.now();
-      for (let i = 0; i < steps; i++) parsel.slide(key, 0.4 * Math.sin(i));
-      return (performance.now() - begin) / steps;
+      const steps = 50;
+      const rounds = Array.from({ length: 10 }, () => {
+        const begin = performance.now();
+        for (let i = 0; i < steps; i++) parsel.slide(key, 0.4 * Math.sin(i));
+        return (performance.now() - begin) / steps;
+      });
+      return Math.min(...rounds); // others have the processor in the slower ones
     }, keys[0] as number);
     process.stdout.write(`a step, all script of it: ${milliseconds.toFixed(3)} ms with ${shape.parts.length} parts\n`);
     expect(milliseconds).toBeLessThan(8); // 2 ms on a free machine; the test allows for a busy one

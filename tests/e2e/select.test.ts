@@ -5,7 +5,7 @@ import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { stool } from './fixture';
-import { openModel, outputFolder, useSite } from './harness';
+import { openModel, outputFolder, shapeOf, useSite } from './harness';
 import { wall } from './wall';
 
 declare const parsel: DebugHandle;
@@ -18,7 +18,7 @@ let shape: Shape;
 async function open(model: Buffer, options: Parameters<typeof openModel>[3] = {}): Promise<void> {
   await page?.context().close();
   ({ page, complaints } = await openModel(site.browser, site.url, model, options));
-  shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
+  shape = await shapeOf(page);
 }
 
 const selected = () => page.evaluate(() => [...parsel.selected()]);
@@ -123,7 +123,8 @@ describe('several parts', () => {
     await page.locator('.part .name').first().focus();
     await page.keyboard.press('Shift+ArrowDown');
     // As slow as people are: the view has followed the selection by then.
-    await page.waitForTimeout(300);
+    await expect.poll(async () => (await selected()).length).toBe(2);
+    await page.waitForFunction(() => parsel.stage()?.isStill());
     await page.keyboard.press('Shift+ArrowDown');
     await expect.poll(async () => (await selected()).length).toBe(3);
     expect(await page.locator('.parts [tabindex="0"]').count()).toBeLessThanOrEqual(3);

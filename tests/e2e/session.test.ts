@@ -5,7 +5,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import type { Layer, Shape, Statement } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { openModel, saved, useSite } from './harness';
+import { addEdits, openInstead, saved, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -15,11 +15,8 @@ let page: Page;
 let complaints: string[];
 let shape: Shape;
 beforeEach(async () => {
-  await page?.context().close();
-  ({ page, complaints } = await openModel(site.browser, site.url, stool));
-  shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
-  await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
-  await page.locator('.card').nth(2).waitFor();
+  ({ page, complaints, shape } = await openInstead(page, site, stool));
+  await addEdits(page, program(shape));
 });
 
 /** Everything that undo covers, as text. */
@@ -66,7 +63,7 @@ describe('a slider', () => {
       relations: [],
     });
     const origin = [0, 0, 0] as const;
-    await page.evaluate((all) => parsel.addProgram(all, 'test'), {
+    await addEdits(page, {
       ...edits,
       layers: [
         layerOf('lift', 'y1', [
@@ -78,7 +75,6 @@ describe('a slider', () => {
       ],
     });
     const cards = page.locator('.card');
-    await cards.nth(4).waitFor();
     const slider = (i: number) => cards.nth(i).getByRole('slider');
     await slider(3).fill('0.35');
     await slider(4).fill('-0.35');
@@ -123,9 +119,7 @@ describe('a slider', () => {
   it('is played and comes back', async () => {
     const slider = page.getByRole('slider').first();
     await page.getByRole('button', { name: 'Animate Widen the seat' }).click();
-    await expect
-      .poll(async () => Math.abs(Number(await slider.inputValue())), { timeout: 10_000 })
-      .toBeGreaterThan(0.2);
+    await expect.poll(async () => Math.abs(Number(await slider.inputValue()))).toBeGreaterThan(0.2);
     await page.getByRole('button', { name: 'Stop Widen the seat' }).click();
     expect(Number(await slider.inputValue())).toBe(0);
   });

@@ -7,7 +7,7 @@ import { readProposals, readRecordings, renderProposals } from '../../web/tools/
 import { call, loadModule } from '../web/module';
 import { serious } from './axe';
 import { stool } from './fixture';
-import { openModel, openPage, outputFolder, useProviders, useSite } from './harness';
+import { openModel, openPage, outputFolder, useKey, useProviders, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -145,14 +145,7 @@ describe('with a language model', () => {
   async function ready() {
     const watched = await openChair();
     const { page } = watched;
-    await page.getByRole('button', { name: /^Language model/ }).click();
-    await page.getByLabel('Provider').selectOption('openai');
-    await page.getByLabel('Base URL').fill(providers.base('openai'));
-    await page.getByLabel('Base URL').press('Tab');
-    await page.getByLabel('Key', { exact: true }).fill('sk-secret');
-    await page.getByLabel('Model', { exact: true }).fill('tester');
-    await page.getByLabel('Answers to each question').fill('1');
-    await page.getByLabel('Answers to each question').press('Tab');
+    await useKey(page, 'openai', providers.base('openai'), 1);
     await page.getByRole('button', { name: 'Done' }).click();
     return watched;
   }

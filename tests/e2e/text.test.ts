@@ -5,7 +5,7 @@ import { programText } from '../../web/src/program/text';
 import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { program, stool } from './fixture';
-import { openModel, saved, useSite } from './harness';
+import { addEdits, openInstead, saved, useSite } from './harness';
 
 declare const parsel: DebugHandle;
 
@@ -14,11 +14,8 @@ let page: Page;
 let complaints: string[];
 let shape: Shape;
 beforeEach(async () => {
-  await page?.context().close();
-  ({ page, complaints } = await openModel(site.browser, site.url, stool));
-  shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
-  await page.evaluate((edits) => parsel.addProgram(edits, 'test'), program(shape));
-  await page.locator('.card').nth(2).waitFor();
+  ({ page, complaints, shape } = await openInstead(page, site, stool));
+  await addEdits(page, program(shape));
 });
 
 const text = () => page.getByRole('textbox', { name: 'Program', exact: true });

@@ -1,11 +1,10 @@
 // Where one looks: the camera follows a model that grows, and leaves a person's own view alone; the compass; the ground.
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
-import type { Shape } from '../../web/src/program/types';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { program, stool } from './fixture';
-import { openModel, outputFolder, useSite } from './harness';
+import { addEdits, openModel, outputFolder, shapeOf, useSite } from './harness';
 import { wall } from './wall';
 
 declare const parsel: DebugHandle;
@@ -15,12 +14,10 @@ const site = useSite();
 /** Without motion: the camera is there at once, however slowly this machine draws. */
 async function widened(): Promise<Page> {
   const { page } = await openModel(site.browser, site.url, stool, { reducedMotion: 'reduce' });
-  const shape = (await page.evaluate(() => parsel.document().model?.shape)) as Shape;
-  const edits = program(shape);
+  const edits = program(await shapeOf(page));
   const [widen] = edits.layers;
   const wide = { ...widen, parameter: { name: 'x1', min: -0.5, max: 4, value: 0 } } as (typeof edits.layers)[number];
-  await page.evaluate((all) => parsel.addProgram(all, 'test'), { ...edits, layers: [wide] });
-  await page.locator('.card').waitFor();
+  await addEdits(page, { ...edits, layers: [wide] });
   return page;
 }
 

@@ -1,5 +1,6 @@
 // A wall of drawers: as many parts as wanted, each under a name of its own, each touching its neighbours.
-import { boxFaces, toGlb } from './fixture';
+import { toGlb } from '../../web/tools/glb.mjs';
+import { boxFaces } from './fixture';
 
 const cube = [-1, 1].flatMap((z) => [-1, 1].flatMap((y) => [-1, 1].map((x) => [x, y, z] as const)));
 /** @param columns,rows of drawers, of 20 × 10 × 30 cm each; they are called "drawer 1a", "drawer 2a", … */

@@ -11,9 +11,12 @@ const site = useSite();
 
 let page: Page;
 let complaints: string[];
+let starting: number;
 beforeAll(async () => {
+  const begin = Date.now();
   ({ page, complaints } = await openPage(site.browser, `${site.url}?debug`, {}, withoutGallery));
   await page.waitForFunction(() => 'parsel' in globalThis && parsel.isReady());
+  starting = Date.now() - begin;
 });
 
 describe('the worker', () => {
@@ -32,8 +35,8 @@ describe('the worker', () => {
     expect(measured.outcome).toBe('AbortError');
     expect(measured.version).toMatch(/^\d+\.\d+\.\d+$/);
     process.stdout.write(`cancel to next answer: ${measured.milliseconds.toFixed(0)} ms\n`);
-    // The limit is 200 ms on a free machine; the test allows for a busy one.
-    expect(measured.milliseconds).toBeLessThan(2000);
+    // The limit is 200 ms on a free machine. A busy one is slow in everything: it is held against starting the page.
+    expect(measured.milliseconds).toBeLessThan(Math.max(2000, starting));
   });
 
   it.each(['abort', 'memory'] as const)('survives: %s', async (kind) => {

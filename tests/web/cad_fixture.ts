@@ -6,12 +6,13 @@ import type { Shape } from '../../web/src/program/types';
 import type { CadSource, ModelFiles } from '../../web/src/scene/load';
 import { emptyDocument, noLabels } from '../../web/src/session/document';
 import { familyOf, withProgramRead } from '../../web/src/session/family';
-import { type FamilyState, withFamily } from '../../web/src/session/family_state';
+import type { FamilyState } from '../../web/src/session/family_found';
+import { withFamily } from '../../web/src/session/family_state';
 import type { ModelCore } from '../../web/src/session/model_core';
 import { createSession } from '../../web/src/session/session';
 import { methodSchemas } from '../../web/src/worker/protocol';
 import { fakeCore } from './fake_core';
-import type { LoadedModule } from './module';
+import { call as callCore, type LoadedModule } from './module';
 
 export const programText = (name: string) =>
   new Uint8Array(readFileSync(fileURLToPath(new URL(`../../core/gallery/programs/${name}`, import.meta.url))));
@@ -21,10 +22,8 @@ type CadMethod = 'open_cad' | 'find_family' | 'family_text' | 'cad_prompt' | 're
 
 export function cadCore(module: LoadedModule): ModelCore {
   const call = <M extends CadMethod>(method: M, parameters: unknown, given: Uint8Array[] = []) => {
-    const reply = module.invoke(method, JSON.stringify(parameters), given, null);
-    const message = JSON.parse(reply.json) as { result?: unknown; error?: { place: string; cause: string } };
-    if (message.error) throw new Error(`${message.error.place}: ${message.error.cause}`);
-    return { result: v.parse(methodSchemas[method].result, message.result) as never, buffers: reply.buffers };
+    const { result, buffers } = callCore<unknown>(module, method, parameters, given);
+    return { result: v.parse(methodSchemas[method].result, result) as never, buffers };
   };
   return {
     ...fakeCore(),
@@ -46,8 +45,7 @@ export async function openProgram(core: ModelCore, module: LoadedModule, name: s
   const beside = { name, main: programText(`${name}.scad`), external: new Map() };
   const program = { variations: programText(`${name}.variations.json`) };
   const files = (await withProgramRead(core, { ...beside, program }, options)) as ModelFiles & { cad: CadSource };
-  const reply = module.invoke('open', JSON.stringify({ name, external: [] }), [files.main], null);
-  const { shape } = (JSON.parse(reply.json) as { result: { shape: Shape } }).result;
+  const { shape } = callCore<{ shape: Shape }>(module, 'open', { name, external: [] }, [files.main]).result;
   const model = { files, shape, source: { kind: 'file' as const }, labels: noLabels };
   const session = createSession();
   const source = await familyOf(core, files, undefined, options);

@@ -1,6 +1,6 @@
 // What two evaluators' results differ by: the closures', the interpreter's, and recorded or foreign ones.
 import { type Evaluator, groupPointAt } from '../../web/src/program/compile';
-import type { State } from '../../web/src/program/interpret';
+import type { State } from '../../web/src/program/interpret_groups';
 import type { Corners, Shape, Vec3 } from '../../web/src/program/types';
 
 /** A state as tests/golden/program_vectors.json and `parsel evaluate` write it. What is not named is at rest. */

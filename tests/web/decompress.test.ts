@@ -6,7 +6,8 @@ import type { Shape } from '../../web/src/program/types';
 import type { ModelFiles } from '../../web/src/scene/load';
 import { gltfJson } from '../../web/src/session/files';
 import { decompress } from '../../web/src/worker/decompress';
-import { stool, stoolGltf, toGlb } from '../e2e/fixture';
+import { toGlb } from '../../web/tools/glb.mjs';
+import { stool, stoolGltf } from '../e2e/fixture';
 import { compress, compressions } from './compressed';
 import { loadModule } from './module';
 

@@ -3,17 +3,9 @@
 import { beforeAll, describe, expect, it } from 'vitest';
 import { emptyDocument } from '../../web/src/session/document';
 import { familyOf, withProgramRead } from '../../web/src/session/family';
+import type { FamilyState } from '../../web/src/session/family_found';
 import { choicesFor, sharedClasses } from '../../web/src/session/family_shared';
-import {
-  baseOf,
-  editsOf,
-  type FamilyState,
-  lengthAt,
-  mixed,
-  settingOf,
-  stopsOf,
-  withFamily,
-} from '../../web/src/session/family_state';
+import { baseOf, editsOf, lengthAt, mixed, settingOf, stopsOf, withFamily } from '../../web/src/session/family_state';
 import type { ModelCore } from '../../web/src/session/model_core';
 import { createSession } from '../../web/src/session/session';
 import { readSaved, save } from '../../web/src/share/saved';

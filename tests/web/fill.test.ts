@@ -14,28 +14,18 @@ import type { FilledGap, Reconstruct } from '../../web/src/fill/types';
 import { partsOf } from '../../web/src/solid/parts';
 import type { Triangles } from '../../web/src/solid/types';
 import { boundsOf } from '../../web/src/solid/weld';
-import { boxFaces, stool, stoolGltf, toGlb } from '../e2e/fixture';
+import { toGlb } from '../../web/tools/glb.mjs';
+import { stool, stoolGltf } from '../e2e/fixture';
+import { boxOf, type Vec } from './boxes';
 import { call, loadModule } from './module';
 
-type Vec = readonly [number, number, number];
-
-function box(low: Vec, high: Vec): Triangles {
-  const positions: number[] = [];
-  const triangles: number[] = [];
-  for (const face of boxFaces) {
-    const first = positions.length / 3;
-    for (const corner of face) positions.push(...[0, 1, 2].map((k) => (corner & (1 << k) ? high : low)[k] as number));
-    triangles.push(first, first + 1, first + 2, first, first + 2, first + 3);
-  }
-  return { positions: Float64Array.from(positions), triangles: Uint32Array.from(triangles) };
-}
 const moved = ({ positions, triangles }: Triangles, by: Vec): Triangles => ({
   positions: positions.map((x, i) => x + (by[i % 3] as number)),
   triangles,
 });
 
-const seat = box([0, 0, 420], [400, 400, 450]);
-const leg = box([20, 20, 0], [60, 60, 420]);
+const seat = boxOf([0, 0, 420], [400, 400, 450]);
+const leg = boxOf([20, 20, 0], [60, 60, 420]);
 const half = 360;
 
 let reconstruct: Reconstruct;
@@ -91,7 +81,7 @@ describe('points of a surface', () => {
 
 describe('screened Poisson reconstruction', () => {
   it('gives back the box that was sampled, closed', () => {
-    const cube = box([0.25, 0.25, 0.25], [0.75, 0.75, 0.75]);
+    const cube = boxOf([0.25, 0.25, 0.25], [0.75, 0.75, 0.75]);
     const samples = diskSamples(0, cube, { low: [0, 0, 0], high: [1, 1, 1] }, 0.02, () => true);
     const { positions, triangles } = reconstruct(
       Float32Array.from(samples.flatMap(({ at, normal }) => [...at, ...normal])),
@@ -167,7 +157,7 @@ describe('a gap', () => {
 
   it('is none between parts that never touched', () => {
     const parts = new Parts(
-      [seat, box([20, 20, 500], [60, 60, 600])].map((part) => ({ rest: part, edited: part })),
+      [seat, boxOf([20, 20, 500], [60, 60, 600])].map((part) => ({ rest: part, edited: part })),
       half,
     );
     expect(contactOf(parts, [0, 1])).toBeNull();

@@ -11,7 +11,7 @@ import { blame } from '../eval/paper/blame.mjs';
 import { sliderAt } from '../eval/paper/slider.mjs';
 import { judge } from '../eval/predicates.mjs';
 import { score } from '../eval/study/score.mjs';
-import { loadModule } from './module';
+import { call, loadModule } from './module';
 
 type Point = readonly [number, number, number];
 const sides = [
@@ -133,14 +133,11 @@ describe('one question about all relations of a kind', () => {
   let prompts: Prompt[];
   beforeAll(async () => {
     const module = await loadModule();
-    const call = (method: string, parameters: object, buffers: Uint8Array[] = []) => {
-      const reply = module.invoke(method, JSON.stringify(parameters), buffers, null);
-      return { ...JSON.parse(reply.json).result, buffers: reply.buffers };
-    };
-    const gallery = call('gallery', {});
-    const chair = gallery.models.findIndex(({ id }: { id: string }) => id === 'chair');
-    call('open', { name: 'chair', external: [] }, [gallery.buffers[chair]]);
-    ({ prompts } = call('prompts', { request: 'make it wider', mentioned: [] }));
+    const gallery = call<{ models: { id: string }[] }>(module, 'gallery', {});
+    const chair = gallery.buffers[gallery.result.models.findIndex(({ id }) => id === 'chair')] as Uint8Array;
+    call(module, 'open', { name: 'chair', external: [] }, [chair]);
+    const asked = { request: 'make it wider', mentioned: [] };
+    ({ prompts } = call<{ prompts: Prompt[] }>(module, 'prompts', asked).result);
   });
 
   it('names each of them once and asks for a list', () => {

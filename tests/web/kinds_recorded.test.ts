@@ -4,18 +4,11 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import { readRecordings } from '../../web/tools/prompts.mjs';
 import { implied, measureFamilies, readWanted, score } from '../eval/families.mjs';
 import { measureGalleryNames } from '../eval/names.mjs';
-import { loadWithCad } from './module';
+import { type Caller, callerOf, loadWithCad } from './module';
 
-type Core = Parameters<typeof measureFamilies>[0];
-let core: Core;
+let core: Caller;
 beforeAll(async () => {
-  const module = await loadWithCad();
-  core = (method, parameters, buffers = []) => {
-    const reply = module.invoke(method, JSON.stringify(parameters), buffers, null);
-    const { result, error } = JSON.parse(reply.json) as { result: unknown; error?: { cause: string } };
-    if (error) throw new Error(error.cause);
-    return { result, buffers: reply.buffers };
-  };
+  core = callerOf(await loadWithCad());
 });
 
 describe('the score of a family', () => {

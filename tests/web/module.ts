@@ -35,6 +35,18 @@ export async function loadWithCad(): Promise<LoadedModule> {
   };
 }
 
+export type Caller = (
+  method: string,
+  parameters: unknown,
+  buffers?: Uint8Array[],
+) => { result: unknown; buffers: Uint8Array[] };
+
+/** call() of a module, as the tools of web/tools and tests/eval take the core. */
+export const callerOf =
+  (core: LoadedModule): Caller =>
+  (method, parameters, buffers) =>
+    call<unknown>(core, method, parameters, buffers);
+
 /** The result and the buffers of a call; an error value is thrown. */
 export function call<T>(core: LoadedModule, method: string, parameters: unknown, buffers: Uint8Array[] = []) {
   const reply = core.invoke(method, JSON.stringify(parameters), buffers, null);

@@ -2,7 +2,7 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { compileAmount } from '../../web/src/program/compile';
-import { evaluateExpression } from '../../web/src/program/interpret';
+import { evaluateExpression } from '../../web/src/program/interpret_amount';
 import { type Expression, functionNames, isParameterName, parseAmount } from '../../web/src/program/parse';
 import { amountText } from '../../web/src/program/text';
 import { Random, randomAmount } from './random_program';

@@ -12,18 +12,11 @@ import {
   renderRequests,
 } from '../../web/tools/prompts.mjs';
 import { readReplies, variantPrompts, variants } from '../eval/variants.mjs';
-import { loadWithCad } from './module';
+import { type Caller, callerOf, loadWithCad } from './module';
 
-type Core = Parameters<typeof renderRequests>[0];
-let core: Core;
+let core: Caller;
 beforeAll(async () => {
-  const module = await loadWithCad();
-  core = (method, parameters, buffers = []) => {
-    const reply = module.invoke(method, JSON.stringify(parameters), buffers, null);
-    const { result, error } = JSON.parse(reply.json) as { result: unknown; error?: { cause: string } };
-    if (error) throw new Error(error.cause);
-    return { result, buffers: reply.buffers };
-  };
+  core = callerOf(await loadWithCad());
 });
 
 describe('the recorded requests', () => {

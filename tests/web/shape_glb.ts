@@ -1,6 +1,7 @@
 // A GLB whose meshes are the hexahedra of a shape: a model that is known to the last corner.
 import type { CageShape, Vec3 } from '../../web/src/program/types';
-import { boxFaces, toGlb } from '../e2e/fixture';
+import { toGlb } from '../../web/tools/glb.mjs';
+import { boxFaces } from '../e2e/fixture';
 
 /** The two triangles of each face, by corners. */
 const faces = boxFaces.flatMap(([a, b, c, d]) => [a, b, c, a, c, d]);

@@ -7,7 +7,8 @@ import { embedSliders, slidersIn, withoutSliders } from '../../web/src/program/e
 import { cageShapeOf, checkShape } from '../../web/src/program/shape_check';
 import { misfitOf, readSliders, slidersOf } from '../../web/src/program/sliders';
 import type { CageShape, Result, Shape } from '../../web/src/program/types';
-import { type Gltf, stool, toGlb } from '../e2e/fixture';
+import { type Gltf, toGlb } from '../../web/tools/glb.mjs';
+import { stool } from '../e2e/fixture';
 import { box, twoBoxes } from './box_shapes';
 import { moving } from './fake_core';
 import { glbOf } from './shape_glb';

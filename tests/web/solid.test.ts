@@ -11,24 +11,13 @@ import { writeThreeMf } from '../../web/src/solid/threemf';
 import type { Part, Solid } from '../../web/src/solid/types';
 import { unite } from '../../web/src/solid/unite';
 import { turnedOver, volumeOf, weld } from '../../web/src/solid/weld';
-import { boxFaces, stool } from '../e2e/fixture';
+import { stool } from '../e2e/fixture';
+import { boxOf, type Vec } from './boxes';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const manifold = await loadManifold(require.resolve('manifold-3d/manifold.wasm'));
 
-type Vec = readonly [number, number, number];
-
-/** Every face with corners of its own, as in files with flat normals. */
-function box(name: string, low: Vec, high: Vec): Part {
-  const positions: number[] = [];
-  const triangles: number[] = [];
-  for (const face of boxFaces) {
-    const first = positions.length / 3;
-    for (const corner of face) positions.push(...[0, 1, 2].map((k) => (corner & (1 << k) ? high : low)[k] as number));
-    triangles.push(first, first + 1, first + 2, first, first + 2, first + 3);
-  }
-  return { name, node: 0, positions: Float64Array.from(positions), triangles: Uint32Array.from(triangles) };
-}
+const box = (name: string, low: Vec, high: Vec): Part => ({ name, node: 0, ...boxOf(low, high) });
 
 const made = (parts: readonly Part[]) => unite(parts, manifold, false, () => {});
 function solidOf(parts: readonly Part[]): Solid {

@@ -4,6 +4,7 @@ import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { root } from './core.mjs';
+import { meshGlb } from './glb.mjs';
 
 const inWeb = createRequire(join(root, 'web', 'package.json'));
 const { runnerImport } = await import(pathToFileURL(inWeb.resolve('vite')).href);
@@ -55,45 +56,8 @@ function written(positions, triangles) {
   const points = new Float32Array(positions.length);
   for (let i = 0; i < points.length; i += 3)
     points.set([positions[i] / 1000, positions[i + 2] / 1000, -positions[i + 1] / 1000], i);
-  const bound = (pick) =>
-    [0, 1, 2].map((k) => points.reduce((best, x, i) => (i % 3 === k ? pick(best, x) : best), points[k]));
-  const json = {
-    asset: { version: '2.0', generator: 'ParSEL' },
-    scene: 0,
-    scenes: [{ nodes: [0] }],
-    nodes: [{ mesh: 0 }],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, material: 0 }] }],
-    materials: [{ pbrMetallicRoughness: { baseColorFactor: [0.6, 0.6, 0.6, 1], metallicFactor: 0 } }],
-    accessors: [
-      {
-        bufferView: 0,
-        componentType: 5126,
-        type: 'VEC3',
-        count: points.length / 3,
-        min: bound(Math.min),
-        max: bound(Math.max),
-      },
-      { bufferView: 1, componentType: 5125, type: 'SCALAR', count: triangles.length },
-    ],
-    bufferViews: [
-      { buffer: 0, byteOffset: 0, byteLength: points.byteLength, target: 34962 },
-      { buffer: 0, byteOffset: points.byteLength, byteLength: triangles.byteLength, target: 34963 },
-    ],
-    buffers: [{ byteLength: points.byteLength + triangles.byteLength }],
-  };
-  const text = Buffer.from(JSON.stringify(json));
-  const chunk = (type, data, fill) => {
-    const padding = Buffer.alloc((4 - (data.length % 4)) % 4, fill);
-    const head = Buffer.alloc(8);
-    head.writeUInt32LE(data.length + padding.length, 0);
-    head.writeUInt32LE(type, 4);
-    return Buffer.concat([head, data, padding]);
-  };
-  const binary = Buffer.concat([Buffer.from(points.buffer), Buffer.from(Uint32Array.from(triangles).buffer)]);
-  const chunks = Buffer.concat([chunk(0x4e4f534a, text, 0x20), chunk(0x004e4942, binary, 0)]);
-  const head = Buffer.alloc(12);
-  head.write('glTF', 0);
-  head.writeUInt32LE(2, 4);
-  head.writeUInt32LE(12 + chunks.length, 8);
-  return Buffer.concat([head, chunks]);
+  return meshGlb(points, triangles, {
+    generator: 'ParSEL',
+    material: { pbrMetallicRoughness: { baseColorFactor: [0.6, 0.6, 0.6, 1], metallicFactor: 0 } },
+  });
 }

@@ -12,4 +12,5 @@ export type {
 } from '../../src/program/types';
 export { embedProgram, readEmbedded, removeEmbedded } from './embed';
 export { ParselError } from './error';
-export { compile, type Evaluate, type LoadedProgram, loadProgram, type SliderParameter, type Values } from './program';
+export { compile, type Evaluate, type LoadedProgram, loadProgram, type Values } from './program';
+export type { SliderParameter } from './values';

@@ -6,18 +6,7 @@ import { checkShape } from '../../src/program/shape_check';
 import { type ReadSliders, readSliders } from '../../src/program/sliders';
 import type { CageShape, Program } from '../../src/program/types';
 import { ParselError, unwrap } from './error';
-import { indexOf, valueFor } from './values';
-
-/** One slider. */
-export interface SliderParameter {
-  readonly name: string;
-  /** What was asked for: "widen the chair". May be empty. */
-  readonly request: string;
-  readonly min: number;
-  readonly max: number;
-  /** Where the slider stands when the program is loaded; at 0 the edit does nothing. */
-  readonly value: number;
-}
+import { indexOf, type SliderParameter, valueFor } from './values';
 
 export interface LoadedProgram {
   /** The layers that are on, in order. */

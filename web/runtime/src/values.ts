@@ -1,6 +1,16 @@
 // Where sliders stand.
 import { ParselError } from './error';
-import type { SliderParameter } from './program';
+
+/** One slider. */
+export interface SliderParameter {
+  readonly name: string;
+  /** What was asked for: "widen the chair". May be empty. */
+  readonly request: string;
+  readonly min: number;
+  readonly max: number;
+  /** Where the slider stands when the program is loaded; at 0 the edit does nothing. */
+  readonly value: number;
+}
 
 const refusal = (place: string, cause: string, fix: string) =>
   new ParselError({ stage: 'runtime/values', place, cause, fix });

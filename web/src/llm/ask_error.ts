@@ -35,6 +35,17 @@ const hopeless: readonly AskFailure[] = [
   'no_recording',
 ];
 
+/** Failures that the settings can cure. */
+const ofSettings: readonly AskFailure[] = [
+  'settings',
+  'no_key',
+  'wrong_key',
+  'no_credit',
+  'model_unknown',
+  'blocked',
+  'no_recording',
+];
+
 export class AskError extends Error {
   readonly value: CoreErrorValue;
   constructor(
@@ -52,6 +63,9 @@ export class AskError extends Error {
   }
   get isHopeless(): boolean {
     return hopeless.includes(this.kind);
+  }
+  get isSetting(): boolean {
+    return ofSettings.includes(this.kind);
   }
   /** Somebody answered, but not with what can be used. */
   get isAnswer(): boolean {

@@ -5,7 +5,8 @@
 
 import type { Inference, MethodResult, Prompt, Replies, Task } from '../worker/protocol';
 import type { Tokens } from './adapter';
-import { AskError } from './ask_error';
+import type { AskError } from './ask_error';
+import { Calls } from './calls';
 import type { Source } from './source';
 
 export type PromptSet = MethodResult<'prompts'>;
@@ -63,10 +64,8 @@ export async function ask(
     return { prompt, of, texts: new Array(of).fill(undefined), controller: new AbortController(), pending: of };
   });
   const all = new AbortController();
-  const tokens = { input: 0, output: 0 };
-  let calls = 0;
+  const calls = new Calls(source);
   let kept = 0;
-  const failures: AskError[] = [];
 
   const report = () => {
     const tasks = new Map<Task, { done: number; of: number }>();
@@ -106,17 +105,9 @@ export async function ask(
     const { prompt, controller } = ballot;
     const own = AbortSignal.any([signal, all.signal, controller.signal]);
     try {
-      own.throwIfAborted();
-      const reply = await source.reply(prompt, vote, known[prompt.task]?.schema ?? null, own);
-      ballot.texts[vote] = reply.text;
-      calls++;
-      tokens.input += reply.tokens?.input ?? 0;
-      tokens.output += reply.tokens?.output ?? 0;
-    } catch (error) {
-      if (own.aborted) return;
-      if (!(error instanceof AskError)) throw error;
-      failures.push(error);
-      if (error.isHopeless || (isFirst && !error.isAnswer)) all.abort(error);
+      const reply = await calls.reply(prompt, vote, known[prompt.task]?.schema ?? null, own);
+      if (typeof reply === 'string') ballot.texts[vote] = reply;
+      else if (reply?.isHopeless || (isFirst && reply?.isAnswer === false)) all.abort(reply);
     } finally {
       ballot.pending--;
       report();
@@ -144,7 +135,7 @@ export async function ask(
   signal.throwIfAborted();
   if (all.signal.aborted) throw all.signal.reason;
   const seed = ballots.find(({ prompt }) => prompt.task === 'seed_edit');
-  if (seed !== undefined && given(seed).length === 0 && failures[0] !== undefined) throw failures[0];
+  if (seed !== undefined && given(seed).length === 0 && calls.failures[0] !== undefined) throw calls.failures[0];
 
   const inference = await readAll();
   // What cannot be read is not worth keeping: asked again, the model may do better.
@@ -153,7 +144,7 @@ export async function ask(
     const refused = ballot && given(ballot)[vote];
     if (ballot && refused) await source.discard(ballot.prompt, refused.vote);
   }
-  return { inference, tokens, calls, kept, failures };
+  return { inference, tokens: calls.tokens, calls: calls.count, kept, failures: calls.failures };
 }
 
 const decided = new DOMException('The vote is decided.', 'AbortError');

@@ -1,7 +1,7 @@
 // One prompt, asked several times: replies that were kept count first, then all others are asked for at once.
 import type { Prompt } from '../worker/protocol';
 import type { Tokens } from './adapter';
-import { AskError } from './ask_error';
+import { Calls } from './calls';
 import type { Source } from './source';
 
 export interface Votes {
@@ -25,10 +25,8 @@ export async function askVotes(
 ): Promise<Votes> {
   const of = source.votes(prompt);
   const texts: { vote: number; text: string }[] = [];
-  const tokens = { input: 0, output: 0 };
+  const calls = new Calls(source);
   const all = new AbortController();
-  const failures: AskError[] = [];
-  let calls = 0;
   let done = 0;
 
   const kept = await Promise.all(Array.from({ length: of }, (_, vote) => source.kept(prompt, vote)));
@@ -38,16 +36,9 @@ export async function askVotes(
   const one = async (vote: number) => {
     const own = AbortSignal.any([signal, all.signal]);
     try {
-      const reply = await source.reply(prompt, vote, schema, own);
-      texts.push({ vote, text: reply.text });
-      calls++;
-      tokens.input += reply.tokens?.input ?? 0;
-      tokens.output += reply.tokens?.output ?? 0;
-    } catch (error) {
-      if (own.aborted) return;
-      if (!(error instanceof AskError)) throw error;
-      failures.push(error);
-      if (error.isHopeless) all.abort(error);
+      const reply = await calls.reply(prompt, vote, schema, own);
+      if (typeof reply === 'string') texts.push({ vote, text: reply });
+      else if (reply?.isHopeless) all.abort(reply);
     } finally {
       onVote(++done, of);
     }
@@ -55,6 +46,6 @@ export async function askVotes(
   await Promise.all(kept.map((text, vote) => (text === undefined ? one(vote) : null)));
   signal.throwIfAborted();
   if (all.signal.aborted) throw all.signal.reason;
-  if (texts.length === 0 && failures[0] !== undefined) throw failures[0];
-  return { texts: texts.sort((a, b) => a.vote - b.vote), calls, tokens };
+  if (texts.length === 0 && calls.failures[0] !== undefined) throw calls.failures[0];
+  return { texts: texts.sort((a, b) => a.vote - b.vote), calls: calls.count, tokens: calls.tokens };
 }

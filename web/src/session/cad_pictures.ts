@@ -1,7 +1,8 @@
 // What pictures of a CAD program's family show.
 import type { ModelFiles } from '../scene/load';
 import type { State } from '../solid/cut';
-import { type FamilySource, parametersAt, settingOf } from './family_state';
+import type { FamilySource } from './family_found';
+import { parametersAt, settingOf } from './family_state';
 
 /** A model that the core drew of a CAD program, with the numbers and without the parts that `state` tells of. */
 export interface CadPicture {

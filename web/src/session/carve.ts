@@ -3,14 +3,17 @@
 import type { Carved, CarveStep } from '../carve/steps';
 import type { ModelFiles } from '../scene/load';
 import { t } from '../texts/texts';
-import type { CarveReply, CarveRequest } from '../worker/carve.worker';
-import { watched } from '../worker/watch';
+import type { CarveRequest } from '../worker/carve.worker';
+import { askOnce } from '../worker/once';
 import { FileError } from './files';
 import type { RunOptions } from './tasks';
 
 export interface CarvedFiles extends Pick<Carved, 'lost' | 'moved' | 'made' | 'open'> {
   readonly files: ModelFiles;
 }
+
+const create = (name: string) =>
+  new Worker(new URL('../worker/carve.worker.ts', import.meta.url), { type: 'module', name });
 
 /** Does a step. */
 export type Carver = (files: ModelFiles, step: CarveStep, options: RunOptions) => Promise<CarvedFiles>;
@@ -19,7 +22,12 @@ export type Carver = (files: ModelFiles, step: CarveStep, options: RunOptions) =
 export const carved: Carver = async (files, step, { signal, onProgress }) => {
   signal.throwIfAborted();
   onProgress({ step: t`changing the parts`, done: 0, total: 1 });
-  const reply = await ask({ files: { main: files.main, external: files.external }, step }, signal);
+  const request: CarveRequest = { files: { main: files.main, external: files.external }, step };
+  const reply = await askOnce<Carved>(create, request, {
+    signal,
+    unstarted: t`The worker did not start. Reload the page.`,
+    ended: t`The browser ended what changes the parts: it may want too much memory. Choose smaller parts.`,
+  });
   if ('error' in reply) throw new FileError(reply.error);
   const { glb, ...rest } = reply;
   return { files: withStep(files, glb, step), ...rest };
@@ -47,22 +55,4 @@ export async function carvedAs(
   let made = files;
   for (const step of steps) made = (await carve(made, step, options)).files;
   return made;
-}
-
-async function ask(request: CarveRequest, signal: AbortSignal): Promise<CarveReply> {
-  const worker = watched(
-    (name) => new Worker(new URL('../worker/carve.worker.ts', import.meta.url), { type: 'module', name }),
-  );
-  const ended = t`The browser ended what changes the parts: it may want too much memory. Choose smaller parts.`;
-  try {
-    return await new Promise((resolve, reject) => {
-      worker.onmessage = ({ data }: MessageEvent<CarveReply>) => resolve(data);
-      worker.onerror = ({ message }) => resolve({ error: message || t`The worker did not start. Reload the page.` });
-      worker.ondeath = () => resolve({ error: ended });
-      signal.addEventListener('abort', () => reject(signal.reason), { once: true });
-      worker.postMessage(request);
-    });
-  } finally {
-    worker.terminate();
-  }
 }

@@ -2,7 +2,7 @@
 import { byThemselves } from '../program/rest';
 import type { Layer, LocalTriple, Program, Shape, Statement } from '../program/types';
 import type { ModelFiles } from '../scene/load';
-import type { FamilyState } from './family_state';
+import type { FamilyState } from './family_found';
 import type { Trace } from './trace';
 
 /** Where a model came from: what a link can name. */

@@ -8,23 +8,18 @@ import type { CadSource, ModelFiles } from '../scene/load';
 import { plural, t } from '../texts/texts';
 import type { Document, LayerEntry } from './document';
 import { activeLayers, type Evaluation } from './evaluation';
+import type { Choice, Choices, FamilySource, FamilyState, NamedVariation, Variations } from './family_found';
 import {
   baseOf,
-  type Choice,
-  type Choices,
   editsOf,
-  type FamilySource,
-  type FamilyState,
   familyLayers,
   lengthAt,
   mixed,
-  type NamedVariation,
   parametersAt,
   type SavedFamily,
   type Setting,
   settingOf,
   shapeIds,
-  type Variations,
   valueAt,
 } from './family_state';
 import { FileError, type FoundFiles } from './files';

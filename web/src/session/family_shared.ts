@@ -6,7 +6,7 @@ import type { LocalTriple } from '../program/types';
 import type { CadPart } from '../scene/load';
 import { listed, m, plural, type Sentence, t } from '../texts/texts';
 import type { Constraint } from '../worker/family_protocol';
-import type { Choice } from './family_state';
+import type { Choice } from './family_found';
 
 /** In all variations that have the parts, in all but one, or by accident of the program alone. */
 export type Agreement = 'common' | 'near' | 'accidental';

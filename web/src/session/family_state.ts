@@ -2,37 +2,8 @@
 // lengths are in the program's own unit.
 import type { Layer, Program, Shape } from '../program/types';
 import type { CadSource } from '../scene/load';
-import type { MethodResult } from '../worker/protocol';
 import { type Document, type LayerEntry, withFreshParameters } from './document';
-
-export type FoundFamily = MethodResult<'find_family'>;
-export type FamilySlider = FoundFamily['family']['sliders'][number];
-export type Choice = 'forced' | 'off';
-export type Choices = Readonly<Record<string, Choice>>;
-
-/** One entry of `parsel/variations`, of which only the name matters here. */
-export interface NamedVariation {
-  readonly name: string;
-}
-
-/** `parsel/variations` v1 as the core takes it; null: none. */
-export type Variations = { readonly variations: readonly NamedVariation[] } | null;
-
-/** What the core found for a program, its variations and what was chosen. */
-export interface FamilySource {
-  readonly found: FoundFamily;
-  /** A GLB of each variation. */
-  readonly pictures: readonly Uint8Array[];
-  readonly variations: Variations;
-  readonly choices: Choices;
-}
-
-export interface FamilyState extends FamilySource {
-  /** Of its sliders' layers, in their order. */
-  readonly keys: readonly number[];
-  /** How much of each variation is mixed in, 0 … 1. */
-  readonly weights: readonly number[];
-}
+import type { Choice, FamilySource } from './family_found';
 
 /** One value a slider. */
 export type Setting = readonly number[];

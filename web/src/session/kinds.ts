@@ -3,17 +3,16 @@
 // diffusion model's pictures).
 
 import { batch, computed, type ReadonlySignal, signal } from '@preact/signals';
-import { AskError } from '../llm/ask_error';
 import type { Source } from '../llm/source';
 import { askVotes } from '../llm/votes';
 import { t } from '../texts/texts';
 import { type CadPicture, picturesOf } from './cad_pictures';
 import type { OpenModel } from './document';
-import type { FamilySource, NamedVariation, Variations } from './family_state';
+import type { FamilySource, NamedVariation, Variations } from './family_found';
 import type { ModelCore } from './model_core';
-import type { Spent } from './propose';
+import { nothingSpent, type Spent } from './propose';
 import type { Session } from './session';
-import { sentence } from './tasks';
+import { type Failed, failureOf, sentence } from './tasks';
 
 /** How many of the kinds are drawn without being asked for. */
 const drawnAtOnce = 6;
@@ -52,7 +51,7 @@ export interface AskedKinds {
   /** Answers to the question which kinds there are. */
   readonly answers: number;
   readonly cards: readonly KindCard[];
-  readonly failure: { readonly text: string; readonly isSetting: boolean } | null;
+  readonly failure: Failed | null;
   readonly spent: Spent;
   readonly stop: () => void;
 }
@@ -78,9 +77,6 @@ export interface KindsActions {
   keep(names?: readonly string[]): Promise<void>;
 }
 
-const settingFailures = ['settings', 'no_key', 'wrong_key', 'no_credit', 'model_unknown', 'blocked', 'no_recording'];
-const nothingSpent: Spent = { calls: 0, tokens: { input: 0, output: 0 } };
-
 export function createKinds({ session, models, sourceOf }: KindsParts): KindsActions {
   const { document } = session;
   const state = signal<AskedKinds | null>(null);
@@ -101,11 +97,6 @@ export function createKinds({ session, models, sourceOf }: KindsParts): KindsAct
     change(stop, ({ cards }) => ({
       cards: cards.map((card) => (card.name === name ? { ...card, state: next } : card)),
     }));
-
-  function failureOf(error: unknown): AskedKinds['failure'] {
-    const isSetting = error instanceof AskError && settingFailures.includes(error.kind);
-    return { text: sentence(error), isSetting };
-  }
 
   function end(stop: () => void): void {
     change(stop, ({ cards }) => ({

@@ -2,14 +2,13 @@
 // counted, and what comes of them is a list to correct. Accepting it labels all parts anew, in one step.
 
 import { computed, type ReadonlySignal, signal } from '@preact/signals';
-import { AskError } from '../llm/ask_error';
 import { t } from '../texts/texts';
 import type { Inference } from '../worker/protocol';
 import { type OpenModel, partKey } from './document';
 import type { ModelCore } from './model_core';
-import { type Asker, askAlone, type PaintNumbered, type Spent, unusable, whyUnread } from './propose';
+import { type Asker, askAlone, nothingSpent, type PaintNumbered, type Spent, unusable, whyUnread } from './propose';
 import type { Session } from './session';
-import { sentence } from './tasks';
+import { type Failed, failureOf } from './tasks';
 
 export type Front = NonNullable<Inference['names']>['front'];
 
@@ -31,7 +30,7 @@ export interface Naming {
   /** Answers that were counted. */
   readonly of: number;
   readonly rows: readonly NameRow[];
-  readonly failure: { readonly text: string; readonly isSetting: boolean } | null;
+  readonly failure: Failed | null;
   readonly spent: Spent;
   readonly stop: () => void;
 }
@@ -54,8 +53,6 @@ export interface NamingActions {
   /** Labels the parts as the list says. */
   accept(): Promise<boolean>;
 }
-
-const settingFailures = ['settings', 'no_key', 'wrong_key', 'no_credit', 'model_unknown', 'blocked', 'no_recording'];
 
 export function createNaming({ session, models, askerOf, relabel }: NamingParts): NamingActions {
   const { document } = session;
@@ -83,7 +80,7 @@ export function createNaming({ session, models, askerOf, relabel }: NamingParts)
       of: 0,
       rows: [],
       failure: null,
-      spent: { calls: 0, tokens: { input: 0, output: 0 } },
+      spent: nothingSpent,
       stop,
     };
     try {
@@ -112,8 +109,7 @@ export function createNaming({ session, models, askerOf, relabel }: NamingParts)
       change(stop, { category, front, of, rows: parts, progress: null, spent: { calls, tokens } });
     } catch (error) {
       if (aborted.aborted) return;
-      const isSetting = error instanceof AskError && settingFailures.includes(error.kind);
-      change(stop, { failure: { text: sentence(error), isSetting }, progress: null });
+      change(stop, { failure: failureOf(error), progress: null });
     }
   }
 

@@ -23,7 +23,8 @@ import {
 } from './document';
 import { misfit } from './evaluation';
 import { familyOf, withProgramRead } from './family';
-import { type FamilySource, withFamily } from './family_state';
+import type { FamilySource } from './family_found';
+import { withFamily } from './family_state';
 import { addressOf, type FileSet, type FoundFiles, modelOf, readUrl } from './files';
 import { galleryUrl, programUrls } from './gallery';
 import type { ModelCore } from './model_core';

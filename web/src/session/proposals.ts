@@ -2,15 +2,23 @@
 // waits to be kept or dropped. ParSEL §8.1 (proxydural models) and §8.2 (variations of one request).
 
 import { batch, computed, type ReadonlySignal, signal } from '@preact/signals';
-import { AskError } from '../llm/ask_error';
 import type { Layer } from '../program/types';
 import { t } from '../texts/texts';
 import { type EditInput, type LayerEntry, type OpenModel, withFreshParameters, withRequest } from './document';
 import { madeBy } from './layers';
 import type { ModelCore, Propagation } from './model_core';
-import { type About, type Asker, type PaintNumbered, propose, readProposal, type Spent } from './propose';
+import {
+  type About,
+  type Asker,
+  nothingSpent,
+  type PaintNumbered,
+  plus,
+  propose,
+  readProposal,
+  type Spent,
+} from './propose';
 import type { Session } from './session';
-import { sentence } from './tasks';
+import { type Failed, failureOf, sentence } from './tasks';
 
 /** Why a slider is not clean. */
 export type Fault =
@@ -50,7 +58,7 @@ export interface Asked {
   readonly proposals: readonly Proposal[];
   /** What of the answer was no proposal, and why, a clause each. */
   readonly dropped: readonly { readonly request: string; readonly reason: string }[];
-  readonly failure: { readonly text: string; readonly isSetting: boolean } | null;
+  readonly failure: Failed | null;
   readonly spent: Spent;
   readonly stop: () => void;
 }
@@ -89,15 +97,8 @@ export interface Proposals {
   standing(key: number): number;
 }
 
-const settingFailures = ['settings', 'no_key', 'wrong_key', 'no_credit', 'model_unknown', 'blocked', 'no_recording'];
 /** A range below this moves nothing. */
 const leastRange = 1e-6;
-const nothingSpent: Spent = { calls: 0, tokens: { input: 0, output: 0 } };
-
-const plus = (a: Spent, b: Spent): Spent => ({
-  calls: a.calls + b.calls,
-  tokens: { input: a.tokens.input + b.tokens.input, output: a.tokens.output + b.tokens.output },
-});
 
 export function createProposals({ session, models, askerOf }: ProposalsParts): Proposals {
   const { document, draft } = session;
@@ -173,8 +174,7 @@ export function createProposals({ session, models, askerOf }: ProposalsParts): P
   }
 
   function fail(stop: () => void, error: unknown): void {
-    const isSetting = error instanceof AskError && settingFailures.includes(error.kind);
-    change(stop, () => ({ failure: { text: sentence(error), isSetting } }));
+    change(stop, () => ({ failure: failureOf(error) }));
   }
 
   function end(stop: () => void): void {

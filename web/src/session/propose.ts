@@ -38,6 +38,12 @@ export interface Spent {
   readonly tokens: { readonly input: number; readonly output: number };
 }
 
+export const nothingSpent: Spent = { calls: 0, tokens: { input: 0, output: 0 } };
+export const plus = (a: Spent, b: Spent): Spent => ({
+  calls: a.calls + b.calls,
+  tokens: { input: a.tokens.input + b.tokens.input, output: a.tokens.output + b.tokens.output },
+});
+
 /** A task that is asked on its own, and the request that it is about, if any. */
 export interface Alone {
   readonly task: string;

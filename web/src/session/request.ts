@@ -14,7 +14,7 @@ import { madeBy } from './layers';
 import { type Said, saidFrom } from './looking';
 import type { ModelCore } from './model_core';
 import type { Session } from './session';
-import { sentence } from './tasks';
+import { type Failed, failureOf } from './tasks';
 
 /** The layer that came of a request, and the step that made it. */
 interface Made {
@@ -48,7 +48,7 @@ export interface Understood {
 export type RequestState =
   | { readonly kind: 'idle' }
   | { readonly kind: 'asking'; readonly tasks: readonly TaskProgress[]; readonly cancel: () => void }
-  | { readonly kind: 'failed'; readonly text: string; readonly isSetting: boolean }
+  | ({ readonly kind: 'failed' } & Failed)
   | Understood;
 
 export interface Question {
@@ -110,9 +110,6 @@ export interface Requests {
   applyRequest(): Promise<void>;
 }
 
-/** Failures that the settings can cure. */
-const settingFailures = ['settings', 'no_key', 'wrong_key', 'no_credit', 'model_unknown', 'blocked', 'no_recording'];
-
 export function createRequests({ session, models, questionOf, seen, votes, play, aim }: RequestParts): Requests {
   const { document } = session;
   const requestText = signal('');
@@ -134,8 +131,7 @@ export function createRequests({ session, models, questionOf, seen, votes, play,
   }
 
   function fail(error: unknown): void {
-    const isSetting = error instanceof AskError && settingFailures.includes(error.kind);
-    request.value = { kind: 'failed', text: sentence(error), isSetting };
+    request.value = { kind: 'failed', ...failureOf(error) };
   }
 
   /** @param anew a language model is asked, what it answered before included */

@@ -1,6 +1,7 @@
 // What the page is doing that takes time, one thing at a time, and what it has to say.
 
 import { type ReadonlySignal, type Signal, signal } from '@preact/signals';
+import { AskError } from '../llm/ask_error';
 import { t } from '../texts/texts';
 import type { Progress } from '../worker/protocol';
 import { stepWords } from './core_steps';
@@ -73,3 +74,14 @@ export function sentence(error: unknown): string {
   const capital = whole.charAt(0).toUpperCase() + whole.slice(1);
   return /[.!?]$/.test(capital) ? capital : `${capital}.`;
 }
+
+/** Why something was not answered, for people. */
+export interface Failed {
+  readonly text: string;
+  /** Whether the settings of the language model can cure it. */
+  readonly isSetting: boolean;
+}
+export const failureOf = (error: unknown): Failed => ({
+  text: sentence(error),
+  isSetting: error instanceof AskError && error.isSetting,
+});

@@ -1,9 +1,12 @@
 // Why a language model gave no answer, with the way to the settings where these are at fault.
+import type { ComponentChildren } from 'preact';
+import type { Failed } from '../session/tasks';
 import { t } from '../texts/texts';
 import { dialog } from './actions';
 import { Icon } from './Icon';
 
-export function AskFailure({ text, isSetting }: { readonly text: string; readonly isSetting: boolean }) {
+/** @param children further buttons */
+export function AskFailure({ text, isSetting, children }: Failed & { readonly children?: ComponentChildren }) {
   return (
     <div class="failed" role="alert">
       <Icon name="warning" />
@@ -13,6 +16,7 @@ export function AskFailure({ text, isSetting }: { readonly text: string; readonl
           {t`Settings`}
         </button>
       )}
+      {children}
     </div>
   );
 }

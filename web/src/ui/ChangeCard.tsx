@@ -8,9 +8,7 @@ import { otherCount, remake } from '../session/remake';
 import { document, task } from '../session/session';
 import { m, t } from '../texts/texts';
 import { Hints } from './HandPanel';
-import { SeedFields } from './SeedFields';
-import { choiceOf, isWhole, seedOf } from './seed_choice';
-import { statementWords } from './words';
+import { SeedList } from './SeedFields';
 
 export function ChangeCard({ entry, done }: { entry: LayerEntry; done: () => void }) {
   const edit = useSignal<EditInput>(editOf(entry.layer));
@@ -34,20 +32,7 @@ export function ChangeCard({ entry, done }: { entry: LayerEntry; done: () => voi
         if (core !== null && (await remake(core, entry.key, edit.peek()))) done();
       }}
     >
-      {edit.value.seed.map((statement, i) => (
-        <fieldset key={i} aria-label={statementWords(document.value, statement)}>
-          <SeedFields
-            shape={shape}
-            choice={choiceOf(shape, statement)}
-            nothing={t`choose a part…`}
-            onChange={(next) => {
-              if (isWhole(shape, next)) {
-                edit.value = { ...edit.value, seed: edit.value.seed.with(i, seedOf(shape, next)) };
-              }
-            }}
-          />
-        </fieldset>
-      ))}
+      <SeedList shape={shape} seed={edit.value.seed} onChange={(seed) => (edit.value = { ...edit.value, seed })} />
       <Hints shape={shape} except="" chosen={hints} />
       <div class="row">
         <button type="submit" class="button primary" disabled={task.value !== null || models.value === null}>

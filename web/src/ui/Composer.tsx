@@ -21,6 +21,7 @@ import {
 } from '../session/requests';
 import { document, selection } from '../session/session';
 import { price, t } from '../texts/texts';
+import { AskFailure } from './AskFailure';
 import { dialog } from './actions';
 import { Icon } from './Icon';
 import { ReadingCard } from './ReadingCard';
@@ -66,7 +67,13 @@ export function Composer({ picking }: { picking: boolean }) {
         {state.kind === 'understood' && state.model === document.value.model && (
           <ReadingCard key={state.answer} state={state} />
         )}
-        {state.kind === 'failed' && <Failed text={state.text} isSetting={state.isSetting} />}
+        {state.kind === 'failed' && (
+          <AskFailure text={state.text} isSetting={state.isSetting}>
+            <button type="button" class="button icon-only" aria-label={t`Dismiss`} onClick={dismiss}>
+              <Icon name="close" />
+            </button>
+          </AskFailure>
+        )}
         <div role="status">{isAsking && <Asking tasks={state.tasks} />}</div>
       </div>
       <form
@@ -203,23 +210,6 @@ function Asking({ tasks }: { tasks: readonly TaskProgress[] }) {
       </div>
       <button type="button" class="button" onClick={cancelRequest}>
         {t`Cancel`}
-      </button>
-    </div>
-  );
-}
-
-function Failed({ text, isSetting }: { text: string; isSetting: boolean }) {
-  return (
-    <div class="failed" role="alert">
-      <Icon name="warning" />
-      <p class="grow">{text}</p>
-      {isSetting && (
-        <button type="button" class="button" onClick={() => (dialog.value = 'model')}>
-          {t`Settings`}
-        </button>
-      )}
-      <button type="button" class="button icon-only" aria-label={t`Dismiss`} onClick={dismiss}>
-        <Icon name="close" />
       </button>
     </div>
   );

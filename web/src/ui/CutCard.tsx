@@ -9,6 +9,7 @@ import { formatLengths } from '../session/measure';
 import { document, selected, task } from '../session/session';
 import { plural, t } from '../texts/texts';
 import { Icon } from './Icon';
+import { useDrawn } from './use_drawn';
 import { stage } from './view';
 
 /** In the middle of the page, where the model is. */
@@ -87,13 +88,7 @@ export function CutHandle() {
     const { x, y } = on.projectMean(now.origin);
     element.style.translate = `${x}px ${y}px`;
   };
-  useEffect(() => {
-    const on = stage.value;
-    if (!on) return;
-    on.drawn.add(place);
-    place();
-    return () => void on.drawn.delete(place);
-  });
+  useDrawn(place);
   if (plane === null) return null;
   const { origin, direction, least, most, offset } = plane;
   const along = (event: PointerEvent): number =>

@@ -4,7 +4,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { costOf, isDemo } from '../llm/settings';
-import type { FamilyState } from '../session/family_state';
+import type { FamilyState } from '../session/family_found';
 import { kinds } from '../session/kind_suggestions';
 import type { AskedKinds, KindCard } from '../session/kinds';
 import { task } from '../session/session';

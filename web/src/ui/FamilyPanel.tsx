@@ -5,7 +5,8 @@ import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { models } from '../session/core';
 import type { OpenModel } from '../session/document';
-import { type FamilyState, settingOf, shapeIds } from '../session/family_state';
+import type { FamilyState } from '../session/family_found';
+import { settingOf, shapeIds } from '../session/family_state';
 import { interrupt } from '../session/play';
 import { family as actions, document, setHidden, step, task } from '../session/session';
 import { plural, t } from '../texts/texts';
@@ -84,7 +85,7 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
   ];
   return (
     <section aria-label={t`Variations`}>
-      <ul class="strip">
+      <ul class="variations">
         {entries.map(({ name, setting }, i) => (
           <li key={name}>
             <button

@@ -4,8 +4,8 @@ import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import type { CadSource } from '../scene/load';
 import { models } from '../session/core';
+import type { FamilyState } from '../session/family_found';
 import { type Agreement, choicesFor, type SharedClass, sharedClasses } from '../session/family_shared';
-import type { FamilyState } from '../session/family_state';
 import { family as actions, pointedAt } from '../session/session';
 import { listed, m, type Sentence, t } from '../texts/texts';
 

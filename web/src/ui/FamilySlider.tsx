@@ -2,11 +2,13 @@
 
 import { useSignal } from '@preact/signals';
 import { useId } from 'preact/hooks';
-import { type FamilyState, lengthAt, type Stops, stopsOf, valueAt } from '../session/family_state';
+import type { FamilyState } from '../session/family_found';
+import { lengthAt, type Stops, stopsOf, valueAt } from '../session/family_state';
 import { formatMeasure, larger, parseMeasure } from '../session/measure';
 import { interrupt } from '../session/play';
 import { family as actions, entryOf, settle, setValue, slide, step } from '../session/session';
 import { t } from '../texts/texts';
+import { trackShares } from './track';
 
 const steps = 200;
 
@@ -59,9 +61,7 @@ export function FamilySlider({ family, index, isAbsent }: FamilySliderProps) {
       <div
         class="track"
         style={{
-          '--zero': share(slider.value),
-          '--low': share(Math.min(slider.value, now)),
-          '--span': Math.abs(share(now) - share(slider.value)),
+          ...trackShares(share, slider.value, now),
           '--hull-low': share(slider.min),
           '--hull-span': share(slider.max) - share(slider.min),
         }}

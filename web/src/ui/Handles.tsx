@@ -15,6 +15,7 @@ import { compiled, document, entryOf, select, selected, selection, sliderValue, 
 import { standIns } from '../session/several';
 import { t } from '../texts/texts';
 import { Icon } from './Icon';
+import { useDrawn } from './use_drawn';
 import { apart, shown, stage } from './view';
 import { featureKind, featureWords, listWords } from './words';
 
@@ -81,13 +82,7 @@ export function Handles() {
       }
     }
   };
-  useEffect(() => {
-    const on = stage.value;
-    if (!on) return;
-    on.drawn.add(place);
-    place();
-    return () => void on.drawn.delete(place);
-  });
+  useDrawn(place);
   useSignalEffect(() => {
     const held = pull.value;
     const at = held && model ? model.shape.parts.findIndex((other) => other.id === held.grab.part) : -1;

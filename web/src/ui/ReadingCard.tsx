@@ -22,9 +22,8 @@ import { plural, price, t } from '../texts/texts';
 import { dialog } from './actions';
 import { Hints } from './HandPanel';
 import { Icon } from './Icon';
-import { SeedFields } from './SeedFields';
+import { SeedList } from './SeedFields';
 import { SidesRead } from './SidesSwitch';
-import { choiceOf, isWhole, seedOf } from './seed_choice';
 import { relationWords, statementWords } from './words';
 
 export function ReadingCard({ state }: { state: Understood }) {
@@ -219,18 +218,7 @@ function SeedCorrections({ shape, seed }: { shape: Shape; seed: readonly Stateme
   return (
     <details class="seeds">
       <summary>{plural(seed.length, 'Correct the edit', 'Correct the {n} edits')}</summary>
-      {seed.map((statement, i) => (
-        <fieldset key={i} aria-label={statementWords(document.value, statement)}>
-          <SeedFields
-            shape={shape}
-            choice={choiceOf(shape, statement)}
-            nothing={t`choose a part…`}
-            onChange={(next) => {
-              if (isWhole(shape, next)) correctEdit({ seed: seed.with(i, seedOf(shape, next)) });
-            }}
-          />
-        </fieldset>
-      ))}
+      <SeedList shape={shape} seed={seed} onChange={(next) => correctEdit({ seed: next })} />
     </details>
   );
 }

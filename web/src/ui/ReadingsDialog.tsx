@@ -14,6 +14,7 @@ import { isClean, type Proposal } from '../session/proposals';
 import { document, exchangeLayer } from '../session/session';
 import { otherReadings } from '../session/suggestions';
 import { t } from '../texts/texts';
+import { AskFailure } from './AskFailure';
 import { dialog } from './actions';
 import { Dialog } from './Dialog';
 import { Icon } from './Icon';
@@ -54,17 +55,7 @@ export function ReadingsDialog() {
           </>
         )}
       </div>
-      {asked?.failure && (
-        <div class="failed" role="alert">
-          <Icon name="warning" />
-          <p class="grow">{asked.failure.text}</p>
-          {asked.failure.isSetting && (
-            <button type="button" class="button" onClick={() => (dialog.value = 'model')}>
-              {t`Settings`}
-            </button>
-          )}
-        </div>
-      )}
+      {asked?.failure && <AskFailure {...asked.failure} />}
       <ReadingList model={model} entry={entry} proposals={proposals} share={share.value} close={close} />
       <div class="row">
         <button

@@ -1,13 +1,22 @@
 // The fields of a seed edit: what to do with a part, with which feature of it, along what, from where.
 
 import { useId } from 'preact/hooks';
-import type { Anchor, LocalTriple, Shape } from '../program/types';
+import type { Anchor, LocalTriple, Shape, Statement } from '../program/types';
 import { nameOf } from '../session/document';
 import { axes, mostAlong } from '../session/measure';
 import { document } from '../session/session';
 import { m, type Sentence, t } from '../texts/texts';
-import { groupOfPart, isOfGroup, type Operator, type SeedChoice, withPart } from './seed_choice';
-import { allFeatures, axisWords, featureKind, featureWords } from './words';
+import {
+  choiceOf,
+  groupOfPart,
+  isOfGroup,
+  isWhole,
+  type Operator,
+  type SeedChoice,
+  seedOf,
+  withPart,
+} from './seed_choice';
+import { allFeatures, axisWords, featureKind, featureWords, statementWords } from './words';
 
 export const operators: readonly { readonly id: Operator; readonly label: Sentence; readonly help: Sentence }[] = [
   { id: 'translate', label: m`Move`, help: m`Moves it along a direction` },
@@ -36,6 +45,30 @@ interface Props {
   /** The first option of the list of parts. */
   readonly nothing: string;
   readonly onChange: (choice: SeedChoice) => void;
+}
+
+/** The fields of several edits, each told once it is whole. */
+export function SeedList({
+  shape,
+  seed,
+  onChange,
+}: {
+  readonly shape: Shape;
+  readonly seed: readonly Statement[];
+  readonly onChange: (seed: readonly Statement[]) => void;
+}) {
+  return seed.map((statement, i) => (
+    <fieldset key={i} aria-label={statementWords(document.value, statement)}>
+      <SeedFields
+        shape={shape}
+        choice={choiceOf(shape, statement)}
+        nothing={t`choose a part…`}
+        onChange={(next) => {
+          if (isWhole(shape, next)) onChange(seed.with(i, seedOf(shape, next)));
+        }}
+      />
+    </fieldset>
+  ));
 }
 
 export function SeedFields({ shape, choice, nothing, onChange }: Props) {

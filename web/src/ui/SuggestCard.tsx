@@ -14,6 +14,7 @@ import { m, number, t } from '../texts/texts';
 import { Icon } from './Icon';
 import { Menu } from './Menu';
 import { evaluatorOf, strip, strips } from './pictures';
+import { trackShares } from './track';
 import { measureName } from './ValueSlider';
 import { listWords, relationWords } from './words';
 
@@ -169,10 +170,7 @@ function Moves({ model, proposal, layer }: { model: OpenModel; proposal: Proposa
           </button>
         ))}
       </div>
-      <div
-        class="track"
-        style={{ '--zero': share(0), '--low': share(Math.min(0, value)), '--span': Math.abs(share(value) - share(0)) }}
-      >
+      <div class="track" style={trackShares(share, 0, value)}>
         <span class="zero" />
         <input
           type="range"

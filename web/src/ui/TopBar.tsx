@@ -16,8 +16,8 @@ import { exportScad } from './family_export';
 import { Icon } from './Icon';
 import { changeLanguage, otherLanguages } from './language';
 import { Menu, type MenuItem } from './Menu';
-import { startTour } from './Tour';
 import { isDark, toggleTheme } from './theme';
+import { startTour } from './tour_state';
 import { apart, showColours, toggleApart } from './view';
 
 function exportItems(): MenuItem[] {

@@ -3,7 +3,7 @@
 import { useSignal } from '@preact/signals';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { m, type Sentence, t } from '../texts/texts';
-import { step } from './Tour';
+import { step } from './tour_state';
 
 interface Step {
   /** What it is about: the first of these that is on the page. */

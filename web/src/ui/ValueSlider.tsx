@@ -18,6 +18,7 @@ import { m, number, t } from '../texts/texts';
 import { Closed, stopWords } from './StackVerdict';
 import { reasonOfEnd } from './slider_end';
 import { cleanShares, Ends } from './TrackEnds';
+import { trackShares } from './track';
 import { inWords } from './why';
 
 const steps = 200;
@@ -51,9 +52,7 @@ export function ValueSlider({ entry }: { entry: LayerEntry }) {
         class="track"
         style={{
           ...cleanShares(entry),
-          '--zero': share(0),
-          '--low': share(Math.min(0, value)),
-          '--span': Math.abs(share(value) - share(0)),
+          ...trackShares(share, 0, value),
         }}
       >
         <Closed entry={entry} share={share} />

@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import { loadModel, type ModelFiles } from '../scene/load';
 import { type CadPicture, picturesOf } from '../session/cad_pictures';
-import type { FamilySource } from '../session/family_state';
+import type { FamilySource } from '../session/family_found';
 import { cutPictures } from '../session/solid';
 
 /** Addresses by variation, for the pictures asked for last. */

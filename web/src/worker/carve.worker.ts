@@ -3,6 +3,7 @@ import manifoldUrl from 'manifold-3d/manifold.wasm?url';
 import { type CarveFiles, carve } from '../carve/carve';
 import type { Carved, CarveStep } from '../carve/steps';
 import { loadManifold } from '../solid/manifold';
+import type { Answer } from './once';
 import { holdWatchedLock } from './watch';
 
 holdWatchedLock();
@@ -12,16 +13,14 @@ export interface CarveRequest {
   readonly step: CarveStep;
 }
 
-export type CarveReply = Carved | { readonly error: string };
-
 self.onmessage = async ({ data }: MessageEvent<CarveRequest>) => {
   try {
-    const reply: CarveReply = await carve(data.files, data.step, async () => {
+    const reply: Answer<Carved> = await carve(data.files, data.step, async () => {
       const { triangulate } = await loadManifold(manifoldUrl);
       return triangulate;
     });
     self.postMessage(reply, { transfer: [reply.glb.buffer] });
   } catch (error) {
-    self.postMessage({ error: error instanceof Error ? error.message : String(error) } satisfies CarveReply);
+    self.postMessage({ error: error instanceof Error ? error.message : String(error) } satisfies Answer<Carved>);
   }
 };

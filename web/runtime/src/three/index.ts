@@ -11,13 +11,14 @@ import { collect, type LoadedMesh, type LoadedModel } from '../../../src/scene/m
 import { ModelView } from '../../../src/scene/model_view';
 import { isLoaded } from '../embed';
 import { ParselError, unwrap } from '../error';
-import { compile, type Evaluate, type LoadedProgram, loadProgram, ofSliders, type SliderParameter } from '../program';
-import { SliderValues } from '../values';
+import { compile, type Evaluate, type LoadedProgram, loadProgram, ofSliders } from '../program';
+import { type SliderParameter, SliderValues } from '../values';
 import { misfitOf } from './fit';
 import { solidify } from './solid';
 
 export { ParselError } from '../error';
-export type { LoadedProgram, SliderParameter } from '../program';
+export type { LoadedProgram } from '../program';
+export type { SliderParameter } from '../values';
 
 /** What attachSliders() needs of what GLTFLoader gives. */
 export type LoadedGltf = Pick<GLTF, 'scene' | 'parser'>;

@@ -1,6 +1,6 @@
 // One row a slider: name, value, a button that takes it back, the slider itself.
 import { titleOf } from '../../../src/program/title';
-import type { SliderParameter } from '../program';
+import type { SliderParameter } from '../values';
 
 export interface Controls {
   readonly list: HTMLUListElement;

@@ -1,8 +1,8 @@
 // <parsel-viewer>: a model with its sliders, on the page's own stage.
 import { type Actor, Stage } from '../../../src/scene/stage';
 import { ParselError } from '../error';
-import type { SliderParameter } from '../program';
 import { misfitOf } from '../three/fit';
+import type { SliderParameter } from '../values';
 import { SliderValues } from '../values';
 import { type Controls, createControls, element } from './controls';
 import { type ReadModel, read } from './read';

@@ -1,0 +1,1 @@
+export function lengthFaults(file: string, text: string, exempt?: readonly string[]): string[];
