@@ -4,11 +4,13 @@
 //
 // A predicate is one of
 //   {"part", "measure", "change": "increase" | "decrease" | "none", "tol"?}
+//   {"part", "measure", "by" | "to" | "times": number}                           in the file's units, or as a ratio
 //   {"pair": [part, part], "touching": true | false}
 //   {"pair": [part, part], "mirror": "x" | "y" | "z", "holds": true | false}     about the middle of the two at rest
 //   {"group": name, "change": "increase" | "decrease"}                           how many nodes have that name, its number aside
+//   {"group": name, "by" | "to": number}                                         likewise
 //   {"any_of": [[predicate…], …]}                                                all of at least one list
-// part: "node:<index>" or a node's name. measure: "any" (the largest shift of a vertex), "<side>_face" (of those on one
+// part: "node:<index>", a node's name or "whole". measure: "any" (the largest shift of a vertex), "<side>_face" (of those on one
 // side), "<size|min|max|center>_<axis>", "<side>_<min|max|center>_<axis>"; side: left, right, top, bottom, front, back.
 // The object's own left is +x, top +y, front +z. Lengths are in half-diagonals of the model at rest.
 import { createRequire } from 'node:module';
@@ -112,22 +114,35 @@ export function gap(a, b) {
   return Math.sqrt(dot(x, x));
 }
 
-/** @param rest, now from readNodes(). @returns {ok, why} */
-export function judge(predicate, rest, now) {
+/** What a measure shall be that was `rest`; null when the predicate names no number. */
+function wantedOf({ by, to, times }, rest) {
+  if (to !== undefined) return to;
+  return by !== undefined ? rest + by : times !== undefined ? rest * times : null;
+}
+
+/**
+ * @param rest, now from readNodes()
+ * @param share a size that changes by this share of itself has changed, however little that is of the whole: for thin parts
+ * @returns {ok, why}
+ */
+export function judge(predicate, rest, now, share = Infinity) {
   const unit = halfDiagonal(rest);
   const find = (nodes, part) => {
+    if (part === 'whole') return [...nodes.values()].flatMap(({ points }) => points);
     const node = nodes.get(part) ?? [...nodes.values()].find(({ name }) => name === part);
     if (node === undefined) throw new Error(`there is no part '${part}'`);
     return node.points;
   };
   if ('any_of' in predicate) {
-    const results = predicate.any_of.map((list) => list.every((one) => judge(one, rest, now).ok));
+    const results = predicate.any_of.map((list) => list.every((one) => judge(one, rest, now, share).ok));
     return { ok: results.includes(true), why: results.join(', ') };
   }
   if ('group' in predicate) {
     const count = (nodes) =>
       [...nodes.values()].filter(({ name }) => name.replace(/[ _.]\d+$/, '') === predicate.group).length;
     const [before, after] = [count(rest), count(now)];
+    const wanted = wantedOf(predicate, before);
+    if (wanted !== null) return { ok: after === wanted, why: `${before} -> ${after}` };
     return { ok: predicate.change === 'increase' ? after > before : after < before, why: `${before} -> ${after}` };
   }
   if ('touching' in predicate) {
@@ -152,8 +167,14 @@ export function judge(predicate, rest, now) {
   if (before.length !== after.length) return { ok: false, why: 'another mesh' };
   const moved = measure === 'any' || measure.endsWith('_face');
   const start = moved ? 0 : measured(before, before, measure);
+  const wanted = wantedOf(predicate, start);
+  if (wanted !== null) {
+    const off = (measured(before, after, measure) - wanted) / unit;
+    return { ok: Math.abs(off) <= smallest.rest, why: `off ${off.toFixed(3)}` };
+  }
   const by = (measured(before, after, measure) - start) / unit;
-  const right = { increase: by > smallest.change, decrease: by < -smallest.change, none: Math.abs(by) <= tol }[change];
+  const least = measure.startsWith('size') ? Math.min(smallest.change, (share * start) / unit) : smallest.change;
+  const right = { increase: by > least, decrease: by < -least, none: Math.abs(by) <= tol }[change];
   if (right === undefined) throw new Error(`There is no change '${change}'.`);
   return { ok: right, why: `${by >= 0 ? '+' : ''}${by.toFixed(3)}` };
 }

@@ -9,6 +9,7 @@ import type { Nodes } from '../eval/judged.mjs';
 import { keptRelations } from '../eval/kept_relations.mjs';
 import { blame } from '../eval/paper/blame.mjs';
 import { sliderAt } from '../eval/paper/slider.mjs';
+import { judge } from '../eval/predicates.mjs';
 import { score } from '../eval/study/score.mjs';
 import { call, loadModule } from './module';
 
@@ -38,6 +39,37 @@ const shape = {
     { id: 'g1', kind: 'ground', parts: ['leg_left'] },
   ],
 };
+
+describe('predicates', () => {
+  const ok = (predicate: object, now: Nodes, share?: number) => judge(predicate, table(), now, share).ok;
+
+  it('of sizes are a difference, a size or a factor, of a part or the whole', () => {
+    const wide = table(1.5);
+    expect(ok({ part: 'whole', measure: 'size_x', by: 1 }, wide)).toBe(true);
+    expect(ok({ part: 'whole', measure: 'size_x', to: 3 }, wide)).toBe(true);
+    expect(ok({ part: 'top', measure: 'size_x', times: 1.5 }, wide)).toBe(true);
+    expect(ok({ part: 'top', measure: 'size_x', times: 1.4 }, wide)).toBe(false);
+    expect(ok({ part: 'whole', measure: 'size_y', by: 0 }, wide)).toBe(true);
+    expect(ok({ part: 'whole', measure: 'size_y', by: 0.1 }, wide)).toBe(false);
+  });
+
+  it('of numbers of nodes take a number', () => {
+    const three = new Map([...table(), ['node:3', box('leg_3', [0, 0, 0], [0.1, 1, 0.1])]]);
+    expect(
+      judge({ group: 'leg', by: 1 }, new Map([...table(), ['node:3', box('leg', [0, 0, 0], [1, 1, 1])]]), three).ok,
+    ).toBe(false);
+    expect(judge({ group: 'leg_left', by: 0 }, table(), three).ok).toBe(true);
+    expect(judge({ group: 'leg', to: 1 }, table(), three).ok).toBe(true);
+  });
+
+  it('take a change of a thin part by its share of it', () => {
+    const thicker = new Map([...table(), ['node:0', box('top', [-1, 1, -0.5], [1, 1.107, 0.5])]]);
+    const predicate = { part: 'top', measure: 'size_y', change: 'increase' };
+    expect(ok(predicate, thicker)).toBe(false);
+    expect(ok(predicate, thicker, 1 / 20)).toBe(true);
+    expect(ok({ ...predicate, change: 'decrease' }, thicker, 1 / 20)).toBe(false);
+  });
+});
 
 describe('kept relations', () => {
   it('are all there at rest, and when the top alone gets wider', () => {

@@ -7,7 +7,7 @@ import { addProgram, document, notice, replaceDocument, undo } from '../../web/s
 import { aimAt, measureAimed, wantedOf } from '../../web/src/session/target';
 import type { Target } from '../../web/src/worker/protocol';
 import { twoBoxes } from './box_shapes';
-import { moving, openModel } from './fake_core';
+import { fakeCore, moving, openModel } from './fake_core';
 
 const target = (said: Partial<Target>): Target => ({ part: 'left', what: 'distance', x: 0.1, ...said });
 
@@ -25,30 +25,50 @@ describe('a size that was said', () => {
     return { key, value, scale: twoBoxes.frame.scale };
   }
 
-  it('puts the slider there', () => {
+  it('puts the slider there', async () => {
     const { key, value, scale } = moved();
-    aimAt(key, target({ by: 0.2 * scale }));
+    await aimAt(null, key, target({ by: 0.2 * scale }));
     expect(value()).toBeCloseTo(0.2, 6);
     expect(notice.value).toBe(null);
     undo();
     expect(value()).toBe(0);
   });
 
-  it('of the whole is read off the whole', () => {
+  it('of the whole is read off the whole', async () => {
     const { key, value, scale } = moved();
     const aimed = target({ part: null, what: 'height', by: 0.1 * scale });
     const entry = () => document.value.layers[0] as LayerEntry;
     const measure = measureAimed(twoBoxes, aimed, entry().layer.statements[0]) as Measure;
     const [rest = 0] = readLayer(entry(), measure, [0]);
-    aimAt(key, aimed);
+    await aimAt(null, key, aimed);
     expect(readLayer(entry(), measure, [value()])[0]).toBeCloseTo(rest + 0.1 * scale, 6);
     expect(notice.value).toBe(null);
   });
 
-  it('that is out of reach puts it at the end, and says so', () => {
+  it('stretches the range to it where all holds so far', async () => {
     const { key, value, scale } = moved();
-    aimAt(key, target({ by: 3 * scale }));
-    expect(value()).toBeCloseTo(0.35);
+    const core = fakeCore();
+    core.extend = async (_, program, layer, to) => ({
+      ...program,
+      layers: program.layers.map((one, i) =>
+        i === layer ? { ...one, parameter: { ...one.parameter, max: Math.min(to, 2) } } : one,
+      ),
+    });
+    await aimAt(core, key, target({ by: 0.9 * scale }));
+    expect(value()).toBeCloseTo(0.9, 6);
+    expect(notice.value).toBe(null);
+    undo();
+    await aimAt(core, key, target({ by: 3 * scale }));
+    expect(value()).toBeCloseTo(2);
     expect(notice.value?.text).toMatch(/^The slider goes no further than /);
+  });
+
+  it('that is out of reach puts it at the end, and says so', async () => {
+    for (const core of [null, fakeCore()]) {
+      const { key, value, scale } = moved();
+      await aimAt(core, key, target({ by: 3 * scale }));
+      expect(value()).toBeCloseTo(0.35);
+      expect(notice.value?.text).toMatch(/^The slider goes no further than /);
+    }
   });
 });

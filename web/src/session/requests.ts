@@ -92,5 +92,5 @@ export const {
   seen,
   votes: () => (isDemo.peek() ? null : votesFor('request')),
   play: playOnce,
-  aim: aimAt,
+  aim: (key, target) => void aimAt(models.peek(), key, target),
 });

@@ -3,7 +3,9 @@
 import type { Shape, Statement } from '../program/types';
 import { t } from '../texts/texts';
 import type { Target } from '../worker/protocol';
+import { putAt } from './extend';
 import { formatMeasure, larger, type Measure, measureOf, sizeOf } from './measure';
+import type { ModelCore } from './model_core';
 import { readLayer, solveLayer } from './reading';
 import { document, say, setValue } from './session';
 
@@ -21,8 +23,11 @@ export function wantedOf({ by, to, times }: Target, rest: number): number {
   return times !== undefined ? rest * times : rest + (by ?? 0);
 }
 
-/** Puts the layer's slider there, or as near as it gets, which it then says. */
-export function aimAt(key: number, target: Target): void {
+/**
+ * Puts the layer's slider there, beyond its end where that holds (extend.ts), or as near as it gets, which it then says.
+ * @param core what can stretch its range; null leaves the range
+ */
+export async function aimAt(core: ModelCore | null, key: number, target: Target): Promise<void> {
   const { layers, model } = document.peek();
   const entry = layers.find((other) => other.key === key);
   if (entry === undefined || model === null) return;
@@ -39,9 +44,11 @@ export function aimAt(key: number, target: Target): void {
   const wanted = wantedOf(target, rest);
   // Counts go in steps: the middle of one is surer than its edge, where a search ends.
   const stepwise = measure.what === 'count';
-  const found = stepwise ? estimate : solveLayer(entry, measure, wanted);
-  setValue(key, found);
-  const [reached = wanted] = readLayer(entry, measure, [found]);
+  if (stepwise || core === null) setValue(key, stepwise ? estimate : solveLayer(entry, measure, wanted));
+  else await putAt(core, entry, measure, wanted);
+  const now = document.peek().layers.find((other) => other.key === key);
+  if (now === undefined) return;
+  const [reached = wanted] = readLayer(now, measure, [now.value]);
   const show = (value: number) => formatMeasure(measure.what, value, larger(rest, wanted), document.peek().unit);
   if (show(reached) !== show(wanted))
     say(t`The slider goes no further than ${show(reached)}; ${show(wanted)} was asked for.`);
