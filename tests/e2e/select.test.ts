@@ -155,7 +155,8 @@ describe('a thousand parts', () => {
     await page.getByLabel('Find a part').fill('');
     await page.locator('.part .name').nth(2).click();
     const field = page.getByLabel('Label', { exact: true });
-    const offered = () => page.locator('#part-labels option').evaluateAll((all) => all.map((one) => (one as HTMLOptionElement).value));
+    const offered = () =>
+      page.locator('#part-labels option').evaluateAll((all) => all.map((one) => (one as HTMLOptionElement).value));
     await field.waitFor();
     expect(await offered()).toEqual([]);
     await field.focus();
