@@ -21,7 +21,7 @@ struct Prices {
   /// A joint that slides along its face and stays on it. Dearer than a part that follows (a seat's legs go along), cheaper
   /// than a symmetry (legs under a fixed top move in on both sides).
   double slide = 3;
-  /// … where one of its parts was asked to move as a whole: a shelf between its walls, a ring on its column. Cheaper than
+  /// … where one of its parts was asked to move as a whole: a shelf between its walls. Cheaper than
   /// to stretch what it slides along; chosen between the two.
   double asked_slide = 1;
   /// … on top, for the share of the contact that is gone.
