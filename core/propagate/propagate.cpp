@@ -7,6 +7,7 @@
 #include "core/edit/readable.h"
 #include "core/propagate/alternatives.h"
 #include "core/propagate/greedy.h"
+#include "core/propagate/slider_span.h"
 #include "core/propagate/transfer.h"
 
 namespace parsel {
@@ -17,7 +18,6 @@ namespace {
 /// than a joint may, so that it is turned through the floor; at 0.15 all that hardly moves is left where it is. A door,
 /// whose axis is nearer to the vertical than 45°, is looked at as far as anything.
 constexpr double most_lean = 0.2;
-constexpr double upright_axis = 0.7;
 /// Amounts that grow this much faster than the parameter are looked at closely; what is still faster may be refused.
 constexpr double fastest = 4;
 
