@@ -1,8 +1,10 @@
-// Which room of the page may import what: one table. Run by `npm run lint`; a wrong import fails with the room's rule.
+// Which room of the page may import what: one table. Run by `npm run lint`; a wrong import fails with the room's rule, and
+// modules that need each other in a circle, be it for types alone, with the circle.
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, normalize } from 'node:path';
 import { argv } from 'node:process';
 import { fileURLToPath } from 'node:url';
+import { cyclesIn, inWords } from './module_cycles.mjs';
 
 const web = join(dirname(fileURLToPath(import.meta.url)), '../web');
 const src = join(web, 'src');
@@ -131,12 +133,27 @@ export function importFaults(file, text) {
     );
 }
 
+/** @param texts by the path of each module from web/src */
+export function circleFaults(texts) {
+  const modules = new Map([...texts.keys()].map((file) => [file.replace(/\.tsx?$/, ''), file]));
+  const graph = new Map();
+  for (const [name, file] of modules) {
+    const paths = [...texts.get(file).matchAll(imported)].map(([, path]) => path);
+    const targets = paths.map((path) => normalize(join(dirname(file), path)).replace(/^\.\.\/src\//, ''));
+    graph.set(name, new Set(targets.filter((target, i) => paths[i].startsWith('.') && modules.has(target))));
+  }
+  return cyclesIn(graph)
+    .map((cycle) => inWords(cycle.map((name) => normalize(join('web/src', name)))))
+    .map((circle) => `${circle}: they need each other in a circle; give what both need a module of its own`);
+}
+
 if (argv[1] === fileURLToPath(import.meta.url)) {
   const filesOf = (folder) => readdirSync(join(src, folder), { recursive: true, encoding: 'utf8' });
   const files = ['', runtime, headless]
     .flatMap((folder) => filesOf(folder).map((file) => folder + file))
     .filter((file) => /\.tsx?$/.test(file));
-  const faults = files.flatMap((file) => importFaults(file, readFileSync(join(src, file), 'utf8')));
+  const texts = new Map(files.map((file) => [file, readFileSync(join(src, file), 'utf8')]));
+  const faults = [...[...texts].flatMap(([file, text]) => importFaults(file, text)), ...circleFaults(texts)];
   if (faults.length > 0) {
     process.stderr.write(`${faults.join('\n')}\n`);
     process.exit(1);

@@ -6,7 +6,7 @@
 
 #include "core/base/text.h"
 #include "core/base/tolerance.h"
-#include "core/cad/scad_notes.h"
+#include "core/cad/label_note.h"
 #include "core/shape/label.h"
 
 namespace parsel::cad {

@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/cad/customizer.h"
+#include "core/cad/label_note.h"
 #include "core/cad/placing.h"
 #include "core/cad/scad_arguments.h"
 #include "core/cad/scad_colour.h"
-#include "core/cad/scad_notes.h"
 #include "core/cad/scad_parse.h"
 #include "core/cad/scad_solids.h"
 #include "core/cad/scad_token.h"

@@ -3,7 +3,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "core/check/check.h"
+#include "core/check/report.h"
+#include "core/edit/program.h"
+#include "core/shape/shape.h"
 
 namespace parsel::replay {
 

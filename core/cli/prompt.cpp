@@ -10,6 +10,7 @@
 #include "core/cli/task.h"
 #include "core/infer/cad_task.h"
 #include "core/infer/prompt.h"
+#include "core/infer/task_list.h"
 
 namespace parsel::cli {
 namespace {

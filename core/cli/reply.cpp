@@ -7,7 +7,7 @@
 #include "core/cli/input.h"
 #include "core/cli/task.h"
 #include "core/infer/cad_task.h"
-#include "core/infer/inference.h"
+#include "core/infer/inference_json.h"
 #include "core/infer/variation_reply.h"
 
 namespace parsel::cli {

@@ -1,6 +1,7 @@
 #include "core/cli/task.h"
 
 #include "core/infer/cad_task.h"
+#include "core/infer/task_list.h"
 #include "core/shape/words.h"
 
 namespace parsel::cli {

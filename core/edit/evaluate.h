@@ -45,28 +45,9 @@
 #include <vector>
 
 #include "core/edit/program.h"
+#include "core/edit/state.h"
 
 namespace parsel {
-
-/// A translation or rotation group under edit.
-struct GroupState {
-  std::vector<Corners> instances;  ///< in order; as many as the relation has parts until a change_count
-  bool count_changed = false;      ///< a change_count has changed the number at least once
-  int source = -1;                 ///< the member that all instances are copies of once count_changed, else -1
-  Vec3 start = Vec3::Zero(), end = Vec3::Zero();    ///< translation
-  Vec3 centre = Vec3::Zero(), axis = Vec3::Zero();  ///< rotation
-  double radius = 0;                                ///< rotation
-};
-
-struct State {
-  PartData<Corners> parts;          ///< member k of a group: its instance min(k, n - 1)
-  RelationData<GroupState> groups;  ///< empty for relations that are no group
-};
-
-/// Local coordinates of a point in a hexahedron that need not be a box, by Newton's method on the trilinear map from
-/// the affine guess (the map of the corners' mean and the mean axes, exact for a parallelepiped): at most 32 steps,
-/// until no component of a step exceeds 1e-12. Where that fails, the affine guess; where that is singular, the centre.
-Vec3 local_coordinates(const Corners& corners, const Vec3& world);
 
 /// A program with its references and amounts compiled for one shape. Holds no reference to either.
 class Evaluator {

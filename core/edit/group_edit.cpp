@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/edit/cage.h"
+
 namespace parsel {
 
 namespace {

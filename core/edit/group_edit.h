@@ -2,10 +2,10 @@
 // bottom-up, when the group is edited and its parent follows. The rules stand in evaluate.h. ParSEL supplement §3.2.
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "core/edit/evaluate.h"
+#include "core/edit/program.h"
+#include "core/edit/state.h"
 
 namespace parsel {
 
@@ -28,8 +28,5 @@ void edit_parent(const Group& group, const ResolvedOperator& op, double amount, 
 
 /// change_count or change_delta.
 void edit_group(const Group& group, Op op, double amount, Anchor anchor, Corners& parent, GroupState& state);
-
-/// The unit vector from the - to the + face centre along a local axis; nothing when they are closer than 1e-12.
-std::optional<Vec3> axis_direction(const Corners& corners, int axis);
 
 }  // namespace parsel

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/edit/cage.h"
+
 namespace parsel {
 
 namespace {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/edit/evaluate.h"
 #include "core/edit/group_edit.h"
+#include "core/edit/program.h"
+#include "core/edit/state.h"
 
 namespace parsel {
 

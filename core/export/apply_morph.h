@@ -10,8 +10,8 @@
 // stay at the edited model: a weight cannot move them.
 #pragma once
 
-#include "core/export/apply.h"
 #include "core/export/apply_mesh.h"
+#include "core/export/apply_options.h"
 
 namespace parsel::apply {
 

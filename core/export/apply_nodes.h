@@ -1,8 +1,8 @@
 // From states of the shape to edits of nodes: which nodes move, come and go.
 #pragma once
 
-#include "core/export/apply.h"
 #include "core/export/apply_mesh.h"
+#include "core/export/apply_options.h"
 
 namespace parsel::apply {
 

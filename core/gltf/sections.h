@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "core/gltf/document.h"
+#include "core/gltf/structure.h"
 
 namespace parsel::gltf {
 

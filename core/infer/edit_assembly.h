@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "core/infer/relation_validity.h"
-#include "core/infer/type_hints.h"
+#include "core/infer/votes.h"
 
 namespace parsel {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/infer/task.h"
+#include "core/infer/votes.h"
 
 namespace parsel {
 
@@ -15,22 +16,6 @@ struct SuggestedNames {
   std::string category;
   std::string front;                ///< "+z", "-z", "+x" or "-x"
   std::vector<std::string> labels;  ///< "" for a part that the reply leaves out
-};
-
-struct LabelVote {
-  PartIndex part;
-  std::string label;  ///< "" when no reply names it
-  int votes = 0;      ///< replies that say so
-};
-
-/// Counted over all replies.
-struct NamesVote {
-  std::string category;
-  int category_votes = 0;
-  std::string front;
-  int front_votes = 0;
-  int of = 0;  ///< replies
-  std::vector<LabelVote> parts;
 };
 
 /// The parts that are asked for: each real one, but for the instances of groups of more than eight, which their virtual

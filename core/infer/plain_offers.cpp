@@ -7,6 +7,7 @@
 
 #include "core/infer/plain_part.h"
 #include "core/infer/plain_parts.h"
+#include "core/infer/plain_seed.h"
 #include "core/infer/reading.h"
 #include "core/shape/label.h"
 

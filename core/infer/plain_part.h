@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/infer/plain_seed.h"
+#include "core/infer/plain_clause.h"
+#include "core/infer/plain_edit.h"
+#include "core/infer/plain_facts.h"
 #include "core/infer/plain_statement.h"
 
 namespace parsel {

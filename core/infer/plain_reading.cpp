@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/infer/inference_json.h"
 #include "core/infer/reading.h"
 
 namespace parsel {

@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "core/infer/plain_seed.h"
+#include "core/infer/plain_edit.h"
+#include "core/infer/plain_facts.h"
 
 namespace parsel {
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/infer/plain_part.h"
+#include "core/infer/plain_seed.h"
 
 namespace parsel {
 

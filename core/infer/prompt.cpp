@@ -8,6 +8,7 @@
 #include "core/edit/program_fields.h"
 #include "core/infer/prompt_texts.h"
 #include "core/infer/proposals.h"
+#include "core/infer/task_list.h"
 #include "core/shape/words.h"
 
 namespace parsel {

@@ -7,28 +7,13 @@
 #include <vector>
 
 #include "core/infer/task.h"
+#include "core/infer/votes.h"
 
 namespace parsel {
 
 inline constexpr int most_proposals = 12;
 /// Characters that a proposed request may have.
 inline constexpr std::size_t longest_proposal = 300;
-
-struct ProposedRequest {
-  std::string request;               ///< one that can be asked: not blank, no markup
-  std::vector<std::string> changes;  ///< ids of the parts that it is about, at least one
-  std::vector<std::string> keeps;    ///< ids of the parts of which it says that they stay
-};
-
-struct DroppedProposal {
-  std::string request;  ///< as far as it can be shown
-  std::string reason;   ///< a clause without a full stop
-};
-
-struct Proposals {
-  std::vector<ProposedRequest> requests;
-  std::vector<DroppedProposal> dropped;
-};
 
 /// {"requests": [{"request", "changes": [parts], "keeps": [parts]}, …]}; a reply that proposes nothing is refused. Dropped,
 /// each with its reason: what is no request or too long, names parts that the shape does not have or none, says the same as

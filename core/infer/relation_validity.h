@@ -5,18 +5,12 @@
 #include <vector>
 
 #include "core/infer/task.h"
+#include "core/infer/votes.h"
 
 namespace parsel {
 
 /// {"keep": true | false} about the relation.
 Result<bool> read_validity_reply(const Shape& shape, RelationIndex relation, std::string_view reply);
-
-struct RelationVote {
-  RelationIndex relation;
-  bool keep = true;  ///< a tie keeps, as the shape is
-  int votes = 0;     ///< for `keep`
-  int of = 0;
-};
 
 RelationVote vote(RelationIndex relation, const std::vector<bool>& keeps);
 

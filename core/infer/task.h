@@ -6,7 +6,6 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,14 +46,6 @@ struct Task {
   /// Whether it is asked on its own, no request being read by it.
   bool is_alone() const { return proposals > 0 || !about_request; }
 };
-
-/// Every task, in the order in which they are asked.
-std::span<const Task* const> all_tasks();
-
-/// Null when there is none.
-const Task* find_task(std::string_view name);
-/// The task that asks whether a relation of this kind shall be kept; null for attachments, which are never asked.
-const Task* task_about(RelationKind kind);
 
 /// The meanings in the type that the task's read() gives.
 template <class T>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/infer/task.h"
-#include "core/propagate/edit_request.h"
+#include "core/infer/votes.h"
 
 namespace parsel {
 
@@ -16,12 +16,6 @@ Result<std::map<std::string, Hint>> read_hints_reply(const Shape& shape, std::st
 
 /// Type hints are kept when at least this share of the replies gives them.
 inline constexpr double hint_share = 0.6;
-
-struct HintVote {
-  std::string part;
-  Hint hint = Hint::translate;
-  int votes = 0, of = 0;
-};
 
 /// The hints kept, by part.
 std::vector<HintVote> vote(const std::vector<std::map<std::string, Hint>>& replies);

@@ -4,6 +4,7 @@
 
 #include "core/base/random.h"
 #include "core/base/tolerance.h"
+#include "core/edit/cage.h"
 #include "core/propagate/compose.h"
 #include "core/prove/range.h"
 #include "core/prove/scope.h"

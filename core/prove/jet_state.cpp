@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/tolerance.h"
+#include "core/edit/cage.h"
 #include "core/edit/evaluate.h"
 
 namespace parsel {

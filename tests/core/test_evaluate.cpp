@@ -4,6 +4,7 @@
 
 #include "core/base/random.h"
 #include "core/base/tolerance.h"
+#include "core/edit/cage.h"
 #include "tests/core/golden.h"
 
 using namespace parsel;

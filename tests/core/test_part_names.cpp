@@ -7,7 +7,7 @@
 #include "core/base/random.h"
 #include "core/base/text.h"
 #include "core/gallery/gallery.h"
-#include "core/infer/inference.h"
+#include "core/infer/inference_json.h"
 #include "core/infer/prompt.h"
 #include "tests/core/hostile_names.h"
 #include "tests/core/shape_fixture.h"

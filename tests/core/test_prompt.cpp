@@ -14,6 +14,7 @@
 #include "core/infer/prompt_texts.h"
 #include "core/infer/relation_validity.h"
 #include "core/infer/seed_edit.h"
+#include "core/infer/task_list.h"
 #include "core/infer/type_hints.h"
 #include "core/shape/words.h"
 #include "tests/core/golden.h"

@@ -4,8 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/infer/inference.h"
+#include "core/infer/inference_json.h"
 #include "core/infer/prompt.h"
+#include "core/infer/task_list.h"
 #include "core/shape/words.h"
 #include "tests/core/shape_fixture.h"
 

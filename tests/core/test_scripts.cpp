@@ -8,6 +8,7 @@
 #include "core/infer/inference.h"
 #include "core/infer/names.h"
 #include "core/infer/prompt.h"
+#include "core/infer/seed_edit.h"
 #include "core/propagate/propagate.h"
 #include "core/shape/words.h"
 #include "tests/core/scripts.h"

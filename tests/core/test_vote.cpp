@@ -1,10 +1,14 @@
-#include "core/infer/inference.h"
+#include "core/infer/inference_json.h"
 
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "core/infer/edit_assembly.h"
 #include "core/infer/reading.h"
+#include "core/infer/relation_validity.h"
+#include "core/infer/seed_edit.h"
+#include "core/infer/type_hints.h"
 #include "core/propagate/propagate.h"
 #include "tests/core/shape_fixture.h"
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/edit/cage.h"
 #include "core/edit/evaluate.h"
 #include "core/shape/abstraction.h"
 #include "core/shape/surface.h"

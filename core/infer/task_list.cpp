@@ -1,4 +1,4 @@
-#include "core/infer/task.h"
+#include "core/infer/task_list.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,1 @@
+export function circleFaults(texts: ReadonlyMap<string, string>, known?: Record<string, string>): string[];
