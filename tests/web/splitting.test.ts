@@ -5,6 +5,7 @@ import type { ModelFiles } from '../../web/src/scene/load';
 import { emptyDocument, noLabels } from '../../web/src/session/document';
 import { splitAs } from '../../web/src/session/split_files';
 import { readSaved, save } from '../../web/src/share/saved';
+import type { MethodResult } from '../../web/src/worker/protocol';
 import { tableInOnePiece } from '../e2e/one_mesh';
 import { twoBoxes } from './box_shapes';
 import { fakeCore } from './fake_core';
@@ -25,6 +26,18 @@ describe('splitting', () => {
     expect(glb).toEqual(again.buffers[0]);
     const opened = call<{ shape: Shape }>(core, 'open', { name: 'table', external: [] }, [glb]);
     expect(opened.result.shape.parts.filter(({ virtual }) => !virtual)).toHaveLength(5);
+  });
+
+  it('tells what each way gives, which is what splitting so gives', async () => {
+    const core = await loadModule();
+    call(core, 'open', { name: 'table', external: [] }, [tableInOnePiece]);
+    for (const fine of [0.5, 1]) {
+      const { before, ways } = call<MethodResult<'split_ways'>>(core, 'split_ways', { fine }).result;
+      expect(before).toBe(1);
+      expect(ways.map(({ by }) => by)).toEqual(['components', 'materials', 'regions']);
+      for (const { by, parts } of ways)
+        expect(call(core, 'split', { by, fine }).result).toMatchObject({ before, parts });
+    }
   });
 
   it('is remembered by saved work, and done again for it unless the file is split already', async () => {
