@@ -71,7 +71,9 @@ export async function findWays(core: ModelCore): Promise<void> {
   const { before, ways } = answer;
   // Creases tell what hangs together apart further: where they find nothing more, it is the same.
   const found = ways
-    .filter(({ by, parts }, i) => parts !== before && !(by === 'regions' && ways.slice(0, i).some((w) => w.parts === parts)))
+    .filter(
+      ({ by, parts }, i) => parts !== before && !(by === 'regions' && ways.slice(0, i).some((w) => w.parts === parts)),
+    )
     .map(({ by, parts, too_many }) => ({ by, parts, isTooMany: too_many }));
   looked.value = { of, fine, found };
   if (found.length > 0) return;

@@ -92,7 +92,8 @@ function WayChoice({ ways, now, isOff, why }: ChoiceProps & { ways: Ways; now: S
     <ul class="ways" aria-label={t`Ways to split it`}>
       {ways.found.map(({ by, parts, isTooMany }) => {
         // As fine as it was asked for, and done so: by this way, or by one that was chosen as the best.
-        const isDone = now !== null && now.fine === ways.fine && now.parts === parts && (now.by === by || now.by === 'auto');
+        const isDone =
+          now !== null && now.fine === ways.fine && now.parts === parts && (now.by === by || now.by === 'auto');
         return (
           <li key={by}>
             <button
