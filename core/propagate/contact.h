@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/propagate/motion.h"
+#include "core/shape/contact_points.h"
 
 namespace parsel {
 
@@ -37,10 +38,19 @@ struct ContactChange {
   bool hinged = false;
 };
 ContactChange change_of(const Contact& contact, const Corners& first, const Corners& second);
+
+/// What is known of how the parts of a joint meet: by their boxes, and by their surfaces where boxes run into each
+/// other and surfaces do not. Where both are known the surfaces say how far the parts are apart.
+struct JointContact {
+  std::optional<Contact> boxes;
+  std::optional<SurfaceContact> surfaces;
+};
+JointContact contact_of_joint(const Shape& shape, const Relation& attachment);
+
 /// The worst at the two ends of the range that the search looks at; hinged when it is at both. Of what is lost, the less:
 /// what slides comes off at one end of its neighbour sooner than at the other, and there the slider ends. Corners at
-/// rest, and how they move.
-ContactChange worst_change(const Contact& contact, const Corners& first, const Motion& of_first, const Corners& second,
-                           const Motion& of_second);
+/// rest, and how they move. Nothing where nothing is known.
+std::optional<ContactChange> worst_change(const JointContact& contact, const Corners& first, const Motion& of_first,
+                                          const Corners& second, const Motion& of_second);
 
 }  // namespace parsel

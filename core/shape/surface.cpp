@@ -132,4 +132,20 @@ bool SurfaceGrid::near(const Vec3& point) const {
   return false;
 }
 
+std::optional<std::uint32_t> SurfaceGrid::nearest(const Vec3& point) const {
+  if ((point.array() < low_.array()).any() || (point.array() > high_.array()).any()) return std::nullopt;
+  const std::size_t c = cell(cell_of(point));
+  std::optional<std::uint32_t> best;
+  double least = distance_;
+  for (std::uint32_t i = starts_[c]; i < starts_[c + 1]; ++i) {
+    const Triangle& t = mesh_.triangles[triangles_[i]];
+    const double distance =
+        distance_to_triangle(point, mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]);
+    if (distance > least) continue;
+    least = distance;
+    best = triangles_[i];
+  }
+  return best;
+}
+
 }  // namespace parsel

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/geometry.h"
@@ -22,6 +23,8 @@ class SurfaceGrid {
   /// `mesh` must outlive the grid. `distance` > 0, in the normalised frame.
   SurfaceGrid(const PartMesh& mesh, double distance);
   bool near(const Vec3& point) const;
+  /// The triangle that is nearest to the point, if one is within the distance.
+  std::optional<std::uint32_t> nearest(const Vec3& point) const;
 
  private:
   std::size_t cell(const std::array<int, 3>& at) const;
