@@ -57,10 +57,17 @@ Mat3 edges_of(const Corners& corners) {
   return edges;
 }
 
-bool is_beyond(const Vec3& point, const Corners& corners, const Eigen::FullPivLU<Mat3>& edges) {
-  const Vec3 local = edges.solve(point - corners.colwise().mean().transpose());
-  return (local.cwiseAbs().array() > 1 + beyond).any();
-}
+/// A hexahedron as the parallelepiped of its mean edges.
+struct Parallelepiped {
+  explicit Parallelepiped(const Corners& corners)
+      : centre(corners.colwise().mean().transpose()), edges(edges_of(corners)), to_local(edges.inverse()) {}
+  bool is_flat() const { return !to_local.allFinite(); }
+  bool is_beyond(const Vec3& point) const {
+    return ((to_local * (point - centre)).cwiseAbs().array() > 1 + beyond).any();
+  }
+  Vec3 centre;
+  Mat3 edges, to_local;
+};
 
 }  // namespace
 
@@ -93,16 +100,16 @@ SurfaceContact::SurfaceContact(const std::vector<ContactPoint>& points, const He
 }
 
 ContactShift SurfaceContact::shift(const Corners& a, const Corners& b) const {
-  const Eigen::FullPivLU<Mat3> edges_a(edges_of(a)), edges_b(edges_of(b));
+  const Parallelepiped now_a(a), now_b(b);
   ContactShift shift;
-  if (!edges_a.isInvertible() || !edges_b.isInvertible()) return shift;
+  if (now_a.is_flat() || now_b.is_flat()) return shift;
   double lost = 0;
   for (const auto& [on_a, on_b, normal] : points_) {
     const Vec3 point_a = interpolate(on_a, a), point_b = interpolate(on_b, b);
     // Seen from b as it was at rest, so that what is stretched with it does not count.
-    const Vec3 moved = edges_b_ * edges_b.solve(point_a - point_b);
+    const Vec3 moved = edges_b_ * (now_b.to_local * (point_a - point_b));
     shift.apart = std::max(shift.apart, std::abs(moved.dot(normal)));
-    if (is_beyond(point_a, b, edges_b) || is_beyond(point_b, a, edges_a)) ++lost;
+    if (now_b.is_beyond(point_a) || now_a.is_beyond(point_b)) ++lost;
   }
   shift.lost = lost / static_cast<double>(points_.size());
   return shift;
