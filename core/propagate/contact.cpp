@@ -149,13 +149,15 @@ JointContact contact_of_joint(const Shape& shape, const Relation& attachment) {
 namespace {
 
 std::optional<ContactChange> change_of(const JointContact& contact, const Corners& first, const Corners& second) {
-  if (!contact.boxes && !contact.surfaces) return std::nullopt;
+  const bool is_known = contact.boxes || (contact.surfaces && contact.surfaces->lie_against());
+  if (!is_known) return std::nullopt;
   ContactChange change;
   if (contact.boxes) change = change_of(*contact.boxes, first, second);
   if (contact.surfaces) {
     const ContactShift shift = contact.surfaces->shift(first, second);
-    change.apart = shift.apart;
+    if (contact.surfaces->lie_against() || !contact.boxes) change.apart = shift.apart;
     if (!contact.boxes) change.lost = shift.lost;
+    change.stepped = shift.stepped;
   }
   return change;
 }
@@ -168,6 +170,7 @@ std::optional<ContactChange> worst_change(const JointContact& contact, const Cor
   const auto other = change_of(contact, first + of_first.back(), second + of_second.back());
   if (!worst || !other) return std::nullopt;
   if (std::abs(other->apart) > std::abs(worst->apart)) worst->apart = other->apart;
+  worst->stepped = std::max(worst->stepped, other->stepped);
   worst->lost = std::min(worst->lost, other->lost);
   worst->hinged = worst->hinged && other->hinged;
   return worst;

@@ -36,6 +36,7 @@ struct ContactChange {
   /// The parts turn about an edge of what they had in common, as a door on its hinges or a lid: off it by no more than
   /// the thickness of the thinner one, as hinges are.
   bool hinged = false;
+  double stepped = 0;  ///< the highest step between faces that were flush
 };
 ContactChange change_of(const Contact& contact, const Corners& first, const Corners& second);
 

@@ -95,8 +95,15 @@ std::vector<ContactPoint> ContactPointFinder::operator()(PartIndex a, PartIndex 
 
 SurfaceContact::SurfaceContact(const std::vector<ContactPoint>& points, const Hexahedron& a, const Hexahedron& b)
     : edges_b_(edges_of(b.corners)) {
-  for (const auto& [point, normal] : points)
-    points_.push_back({trilinear_weights(a.local(point)), trilinear_weights(b.local(point)), normal});
+  for (const auto& [point, normal] : points) {
+    const auto ends = [&, p = point, n = normal](const Hexahedron& box) {
+      return extent_along(box.corners, n).high - p.dot(n) <= contact_distance;
+    };
+    points_.push_back(
+        {trilinear_weights(a.local(point)), trilinear_weights(b.local(point)), normal, ends(a) && ends(b)});
+  }
+  against_ = static_cast<std::size_t>(
+      std::count_if(points_.begin(), points_.end(), [](const Point& point) { return !point.is_flush; }));
 }
 
 ContactShift SurfaceContact::shift(const Corners& a, const Corners& b) const {
@@ -104,14 +111,16 @@ ContactShift SurfaceContact::shift(const Corners& a, const Corners& b) const {
   ContactShift shift;
   if (now_a.is_flat() || now_b.is_flat()) return shift;
   double lost = 0;
-  for (const auto& [on_a, on_b, normal] : points_) {
+  for (const auto& [on_a, on_b, normal, is_flush] : points_) {
     const Vec3 point_a = interpolate(on_a, a), point_b = interpolate(on_b, b);
     // Seen from b as it was at rest, so that what is stretched with it does not count.
     const Vec3 moved = edges_b_ * (now_b.to_local * (point_a - point_b));
-    shift.apart = std::max(shift.apart, std::abs(moved.dot(normal)));
+    double& farthest = is_flush ? shift.stepped : shift.apart;
+    farthest = std::max(farthest, std::abs(moved.dot(normal)));
+    if (is_flush) continue;
     if (now_b.is_beyond(point_a) || now_a.is_beyond(point_b)) ++lost;
   }
-  shift.lost = lost / static_cast<double>(points_.size());
+  if (against_ > 0) shift.lost = lost / static_cast<double>(against_);
   return shift;
 }
 

@@ -22,7 +22,8 @@ class ContactPointFinder {
   ContactPointFinder(const PartData<PartMesh>& meshes, const PartData<Hexahedron>& boxes)
       : meshes_(meshes), boxes_(boxes) {}
 
-  /// At most 16 points, spread over where the surfaces are nearer than contact_distance and face each other within 45°.
+  /// At most 16 points, spread over where the surfaces are nearer than contact_distance and face each other within 45°, or
+  /// look the same way: faces that are flush.
   /// None where the boxes do not run into each other by more than contact_distance: there they tell themselves.
   std::vector<ContactPoint> operator()(PartIndex a, PartIndex b);
 
@@ -38,6 +39,8 @@ class ContactPointFinder {
 struct ContactShift {
   double apart = 0;  ///< the farthest that two points have moved apart or into each other, across the surface, ≥ 0
   double lost = 0;   ///< share of the points that lie beyond the other part now, 0 … 1
+  /// The highest step between faces that were flush, ≥ 0.
+  double stepped = 0;
 };
 
 /// The contact points of a joint, followed through the edits of its parts. Parts may slide along each other, and may be
@@ -47,13 +50,17 @@ class SurfaceContact {
   /// `points` not empty; boxes at rest.
   SurfaceContact(const std::vector<ContactPoint>& points, const Hexahedron& a, const Hexahedron& b);
   ContactShift shift(const Corners& a, const Corners& b) const;
+  /// Whether there are points in which the one lies against the other, not only such in which both are flush.
+  bool lie_against() const { return against_ > 0; }
 
  private:
   struct Point {
     Weights on_a, on_b;
     Vec3 normal;
+    bool is_flush;  ///< both boxes end there
   };
   std::vector<Point> points_;
+  std::size_t against_ = 0;
   Mat3 edges_b_;  ///< half the edges of b at rest, as columns
 };
 
