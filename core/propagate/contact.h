@@ -3,6 +3,8 @@
 //
 // Parts are seen as their hexahedra. Two boxes meet across the axis, of either box, along which they overlap least (the
 // separating axis where they are apart). The axis is that of a face, and goes along with the box that it belongs to.
+// Where boxes run into each other and surfaces do not, as those of a cushion and its sofa, the joint's contact points
+// tell how far the parts come apart (core/shape/contact_points.h).
 #pragma once
 
 #include <array>

@@ -115,9 +115,13 @@ ContactShift SurfaceContact::shift(const Corners& a, const Corners& b) const {
     const Vec3 point_a = interpolate(on_a, a), point_b = interpolate(on_b, b);
     // Seen from b as it was at rest, so that what is stretched with it does not count.
     const Vec3 moved = edges_b_ * (now_b.to_local * (point_a - point_b));
+<<<<<<< HEAD
     double& farthest = is_flush ? shift.stepped : shift.apart;
     farthest = std::max(farthest, std::abs(moved.dot(normal)));
     if (is_flush) continue;
+=======
+    shift.apart = std::max(shift.apart, std::abs(moved.dot(normal)));
+>>>>>>> 99a412d (Energy of a deformation by Newton's method, and once for opposite corners of what is affine; a contact's frame is inverted once)
     if (now_b.is_beyond(point_a) || now_a.is_beyond(point_b)) ++lost;
   }
   if (against_ > 0) shift.lost = lost / static_cast<double>(against_);
