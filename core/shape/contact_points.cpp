@@ -11,7 +11,7 @@
 namespace parsel {
 namespace {
 
-constexpr std::size_t samples = 800, most_points = 16;
+constexpr std::size_t sample_count = 400, most_points = 16;
 constexpr double facing = 0.7;  ///< cos 45°
 /// A point counts as lost when it is beyond the other part's box by this share of its half extent.
 constexpr double beyond = 0.05;
@@ -77,18 +77,26 @@ const SurfaceGrid& ContactPointFinder::grid(PartIndex part) {
   return grids_.emplace(part, SurfaceGrid(meshes_[part], contact_distance)).first->second;
 }
 
+const std::vector<SurfaceSample>& ContactPointFinder::samples(PartIndex part) {
+  auto& own = samples_[part];
+  if (own.empty()) own = sample_triangles(meshes_[part], sample_count);
+  return own;
+}
+
 std::vector<ContactPoint> ContactPointFinder::operator()(PartIndex a, PartIndex b) {
   if (!run_into_each_other(boxes_[a], boxes_[b])) return {};
   const bool a_smaller = boxes_[a].half_extents().norm() <= boxes_[b].half_extents().norm();
   const PartIndex small = a_smaller ? a : b, large = a_smaller ? b : a;
+  const Corners& corners = boxes_[large].corners;
+  const Vec3 low = corners.colwise().minCoeff().transpose().array() - contact_distance,
+             high = corners.colwise().maxCoeff().transpose().array() + contact_distance;
   std::vector<ContactPoint> found;
-  for (const Vec3& point : sample_surface(meshes_[small], samples)) {
+  for (const auto& [point, triangle] : samples(small)) {
+    if ((point.array() < low.array()).any() || (point.array() > high.array()).any()) continue;
     const auto on_large = grid(large).nearest(point);
     if (!on_large) continue;
-    const auto on_small = grid(small).nearest(point);
-    if (!on_small) continue;
     const Vec3 normal = normal_of(meshes_[large], *on_large);
-    if (std::abs(normal.dot(normal_of(meshes_[small], *on_small))) > facing) found.push_back({point, normal});
+    if (std::abs(normal.dot(normal_of(meshes_[small], triangle))) > facing) found.push_back({point, normal});
   }
   return spread(found);
 }
@@ -115,13 +123,9 @@ ContactShift SurfaceContact::shift(const Corners& a, const Corners& b) const {
     const Vec3 point_a = interpolate(on_a, a), point_b = interpolate(on_b, b);
     // Seen from b as it was at rest, so that what is stretched with it does not count.
     const Vec3 moved = edges_b_ * (now_b.to_local * (point_a - point_b));
-<<<<<<< HEAD
     double& farthest = is_flush ? shift.stepped : shift.apart;
     farthest = std::max(farthest, std::abs(moved.dot(normal)));
     if (is_flush) continue;
-=======
-    shift.apart = std::max(shift.apart, std::abs(moved.dot(normal)));
->>>>>>> 99a412d (Energy of a deformation by Newton's method, and once for opposite corners of what is affine; a contact's frame is inverted once)
     if (now_b.is_beyond(point_a) || now_a.is_beyond(point_b)) ++lost;
   }
   if (against_ > 0) shift.lost = lost / static_cast<double>(against_);

@@ -15,6 +15,13 @@ namespace parsel {
 /// `count` points spread over the surface by area, the same for the same mesh (stratified, seeded by a constant).
 std::vector<Vec3> sample_surface(const PartMesh& mesh, std::size_t count);
 
+struct SurfaceSample {
+  Vec3 point;
+  std::uint32_t triangle;
+};
+/// The same points, and the triangles that they lie on.
+std::vector<SurfaceSample> sample_triangles(const PartMesh& mesh, std::size_t count);
+
 /// A uniform grid over a mesh's triangles that answers whether a point lies within a fixed distance of the surface. The
 /// distance is to the triangles themselves, not to samples of them, so the answer does not depend on a sampling
 /// density.
