@@ -119,6 +119,20 @@ describe('several parts', () => {
     expect(complaints).toEqual([]);
   });
 
+  it('are selected from one row of the list to another by Shift+click', async () => {
+    const names = page.locator('.part .name');
+    const pressed = () => names.evaluateAll((all) => all.map((name) => name.getAttribute('aria-pressed') === 'true'));
+    const count = await names.count();
+    await names.nth(1).click();
+    await names.nth(count - 1).click({ modifiers: ['Shift'] });
+    await expect.poll(pressed).toEqual(Array.from({ length: count }, (_, i) => i >= 1));
+    await names.nth(2).click({ modifiers: ['Shift'] }); // the first one stays where the range begins
+    await expect.poll(pressed).toEqual(Array.from({ length: count }, (_, i) => i === 1 || i === 2));
+    await names.nth(0).click({ modifiers: ['Shift'] });
+    await expect.poll(pressed).toEqual(Array.from({ length: count }, (_, i) => i < 2));
+    expect(complaints).toEqual([]);
+  });
+
   it('are found by arrows in the list, which is one stop of the Tab key', async () => {
     await page.locator('.part .name').first().focus();
     await page.keyboard.press('Shift+ArrowDown');

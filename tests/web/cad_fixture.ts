@@ -58,7 +58,7 @@ export async function openProgram(
   const { shape } = callCore<{ shape: Shape }>(module, 'open', { name, external: [] }, [files.main]).result;
   const model = { files, shape, source: { kind: 'file' as const }, labels: noLabels };
   const session = createSession();
-  const source = await familyOf(core, files, undefined, options);
+  const source = await familyOf(core, model, undefined, options);
   session.replaceDocument(withFamily({ ...emptyDocument, model }, source, undefined, session.newEntry), `open ${name}`);
   const family = () => session.document.value.family as FamilyState;
   return { session, family, model, cad: files.cad };

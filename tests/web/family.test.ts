@@ -221,7 +221,7 @@ translate([0, 0, 10]) cube([40, 20, 2]);
     const read = readSaved(JSON.parse(JSON.stringify(save(session.document.value))));
     if (!read.ok) throw new Error(read.text);
     expect(read.lost).toEqual([]);
-    const source = await familyOf(core, model.files, read.saved.family, options);
+    const source = await familyOf(core, model, read.saved.family, options);
     const again = withFamily({ ...emptyDocument, model }, source, read.saved.family, session.newEntry);
     expect([...absentIds(again)]).toEqual(['hole']);
     const other = { ...read.saved.family, sliders: 0, choices: [], without: ['hole', 'block', 'no such part'] };
@@ -248,7 +248,7 @@ translate([0, 0, 10]) cube([40, 20, 2]);
     const read = readSaved(JSON.parse(JSON.stringify(save(session.document.value))));
     if (!read.ok) throw new Error(read.text);
     expect(read.saved.family?.variations).toBeUndefined(); // they come with the program
-    const source = await familyOf(core, model.files, read.saved.family, options);
+    const source = await familyOf(core, model, read.saved.family, options);
     const other = createSession();
     const layers = read.saved.program.layers.map((layer) => other.newEntry(layer as never, layer.parameter.value));
     const document = withFamily({ ...emptyDocument, model, layers }, source, read.saved.family, other.newEntry);
@@ -259,7 +259,7 @@ translate([0, 0, 10]) cube([40, 20, 2]);
     );
     expect(document.family?.choices).toEqual(family().choices);
 
-    const damaged = await familyOf(core, model.files, { sliders: 1, choices: [['no such', 'off']] }, options);
+    const damaged = await familyOf(core, model, { sliders: 1, choices: [['no such', 'off']] }, options);
     expect(damaged?.choices).toEqual({});
   });
 

@@ -103,7 +103,7 @@ export interface Document {
   readonly presets?: readonly Preset[];
   /** Sides are said from where a person looks; absent: they are the object's own. */
   readonly sides?: 'seen';
-  /** Of a CAD program: its family, whose sliders are layers like any others. */
+  /** Of a CAD program, or of kept variations: its family, whose sliders are layers like any others. */
   readonly family?: FamilyState;
 }
 

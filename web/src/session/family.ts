@@ -1,12 +1,13 @@
-// What can be done to the family of a CAD program: moving its sliders one by one or as a mixture, choosing what its
+// What can be done to the family of a CAD program, or of a model of boxes: moving its sliders one by one or as a mixture, choosing what its
 // variations share, keeping a variation. Each is one step of the history.
 
 import { batch, type Signal, signal } from '@preact/signals';
 import { parseJson } from '../program/json';
-import { errorMessage } from '../program/types';
-import type { CadSource, ModelFiles } from '../scene/load';
+import { errorMessage, type Shape } from '../program/types';
+import type { CadSource } from '../scene/load';
 import { plural, t } from '../texts/texts';
-import type { Document, LayerEntry } from './document';
+import { type BoundsRead, boxesOf, boxProgram, inFrame } from './box_family';
+import { type Document, type LayerEntry, nameOf, type OpenModel } from './document';
 import { activeLayers, type Evaluation } from './evaluation';
 import type { Choice, Choices, FamilySource, FamilyState, NamedVariation, Variations } from './family_found';
 import {
@@ -60,25 +61,50 @@ function variationsIn(bytes: Uint8Array): unknown {
   return read.value;
 }
 
-/** The family of a model that came of a program, with what saved work says of it; null for other models. */
+/** What parts are called that nobody has renamed. */
+const nameIn = (shape: Shape) => (id: string) => shape.parts.find((part) => part.id === id)?.name ?? id;
+
+/** What the variations of a program, or of the boxes of a shape, share. */
+async function findFamily(
+  core: ModelCore,
+  base: CadSource,
+  shape: Shape,
+  variations: Variations,
+  choices: Choices,
+  options: Pick<RunOptions, 'signal'>,
+): Promise<FamilySource> {
+  const { found, pictures } = await core.findFamily({ cad: base.program, variations, choices }, options);
+  return {
+    base,
+    found: base.of === 'hexahedra' ? inFrame(found, shape.frame) : found,
+    pictures,
+    variations,
+    choices,
+  };
+}
+
+/**
+ * The family of a model that came of a program, with what saved work says of it; of another model, that of the variations
+ * that saved work has of it, else null.
+ */
 export async function familyOf(
   core: ModelCore,
-  { cad }: ModelFiles,
+  { files: { cad }, shape }: Pick<OpenModel, 'files' | 'shape'>,
   saved: SavedFamily | undefined,
   options: RunOptions,
 ): Promise<FamilySource | null> {
-  if (cad === undefined) return null;
-  const find = async (variations: unknown, choices: Choices): Promise<FamilySource> => ({
-    ...(await core.findFamily({ cad: cad.program, variations, choices }, options)),
-    variations: variations as Variations,
-    choices,
-  });
-  if (saved === undefined) return find(cad.variations, none);
+  const own =
+    cad === undefined ? null : () => findFamily(core, cad, shape, cad.variations as Variations, none, options);
+  if (saved === undefined) return own?.() ?? null;
+  const boxes = cad === undefined && saved.variations !== undefined ? boxProgram(shape, nameIn(shape)) : null;
+  const base = cad ?? (boxes?.ok ? boxes.base : null);
+  if (base === null) return null;
   try {
-    return await find(saved.variations ?? cad.variations, Object.fromEntries(saved.choices));
+    const variations = (saved.variations ?? base.variations) as Variations;
+    return await findFamily(core, base, shape, variations, Object.fromEntries(saved.choices), options);
   } catch {
     options.signal.throwIfAborted();
-    return find(cad.variations, none); // of another version, or made up
+    return own?.() ?? null; // of another version, or made up
   }
 }
 
@@ -100,7 +126,10 @@ export interface FamilyActions {
   showVariation(variation: number | null): void;
   /** Chooses what is shared against the evidence; null: as the variations say. */
   choose(core: ModelCore, changes: ReadonlyMap<string, Choice | null>): Promise<void>;
-  /** Makes a variation of what is shown. False, and a sentence, when that cannot be. */
+  /**
+   * Makes a variation of what is shown, with what edits beside the family do where the parts are boxes along the axes, which
+   * any model may have. False, and a sentence, when that cannot be.
+   */
   keepVariation(core: ModelCore, name: string): Promise<boolean>;
   /** Adds variations in one step; those of the same names give way. False, and a sentence, when that cannot be. */
   addVariations(core: ModelCore, added: readonly NamedVariation[]): Promise<boolean>;
@@ -109,7 +138,7 @@ export interface FamilyActions {
 
 export function createFamily(
   history: History<Document>,
-  { slide, sliderValue }: Evaluation,
+  { compiled, slide, sliderValue }: Evaluation,
   { newEntry }: Pick<Layers, 'newEntry'>,
   { run, say }: Tasks,
 ): FamilyActions {
@@ -184,45 +213,63 @@ export function createFamily(
     history.push(there ? t`show@step` : t`hide@step`, next);
   }
 
-  /** The family anew, with the sliders as near as they can be to where they stood. */
-  async function find(core: ModelCore, variations: Variations, choices: Choices, label: string): Promise<boolean> {
+  /**
+   * The family anew, with the sliders as near as they can be to where they stood, or where the variation `shown` has them,
+   * which is what the edits beside them made: these go back to 0.
+   */
+  async function find(
+    core: ModelCore,
+    base: CadSource,
+    variations: Variations,
+    choices: Choices,
+    label: string,
+    shown?: string,
+  ): Promise<boolean> {
     const { model, family: asked } = document.peek();
-    const cad = model?.files.cad;
-    if (model === null || cad === undefined || asked === undefined) return false;
-    const answer = await run(t`Looking for what they share`, (options) =>
-      core.findFamily({ cad: cad.program, variations, choices }, options),
+    if (model === null) return false;
+    const source = await run(t`Looking for what they share`, (options) =>
+      findFamily(core, base, model.shape, variations, choices, options),
     );
     const { family } = document.peek();
-    if (answer === null || family !== asked || document.peek().model !== model) return false;
-    const source: FamilySource = { ...answer, variations, choices };
-    const edits = editsOf(document.peek());
-    const values = parametersAt(family, settingNow(family));
+    if (source === null || family !== asked || document.peek().model !== model) return false;
+    const found = source.found.family;
+    const names = found.variations.map(({ name }) => name);
+    const index = shown === undefined ? -1 : names.indexOf(shown);
+    const edits = editsOf(document.peek()).map((entry) => (index < 0 ? entry : { ...entry, value: 0 }));
+    const values = family === undefined ? {} : parametersAt(family, settingNow(family));
+    const setting =
+      index < 0 ? found.sliders.map(({ parameter, value }) => values[parameter] ?? value) : settingOf(source, index);
     const taken = new Set(edits.map(({ layer }) => layer.parameter.name));
     const entries = familyLayers(source, model.shape, taken).map((layer, k) => {
-      const { parameter = '', value = 0 } = source.found.family.sliders[k] ?? {};
       const entry = newEntry(layer);
-      return { ...entry, value: clamp(entry, valueAt(source, k, values[parameter] ?? value)) };
+      return { ...entry, value: clamp(entry, valueAt(source, k, setting[k] ?? 0)) };
     });
-    const names = family.found.family.variations.map(({ name }) => name);
-    const weights = source.found.family.variations.map(({ name }) => family.weights[names.indexOf(name)] ?? 0);
+    const before = family?.found.family.variations.map(({ name }) => name) ?? [];
+    const weights = names.map((name, i) =>
+      index < 0 ? (family?.weights[before.indexOf(name)] ?? 0) : Number(i === index),
+    );
     history.push(label, {
       ...document.peek(),
       layers: [...entries, ...edits],
       family: {
         ...source,
         weights,
-        without: stillOptional(source, family.without),
+        without: stillOptional(source, family?.without ?? []),
         keys: entries.map(({ key }) => key),
       },
     });
-    const [before, after] = [family.keys.length, entries.length];
-    const sliders = plural(after, '{n} slider', '{n} sliders');
+    const sliders = plural(entries.length, '{n} slider', '{n} sliders');
+    if (family === undefined) say(t`What “${shown ?? ''}” shares with the model leaves ${sliders}.`);
+    else sayChange(family.keys.length, entries.length, sliders);
+    return true;
+  }
+
+  function sayChange(before: number, after: number, sliders: string): void {
     say(
       before === after
         ? t`${sliders}, as before: the rest of what they share implies it.`
         : t`${sliders}, ${before} before.`,
     );
-    return true;
   }
 
   async function choose(core: ModelCore, changes: ReadonlyMap<string, Choice | null>): Promise<void> {
@@ -232,28 +279,57 @@ export function createFamily(
     for (const [id, choice] of changes)
       if (choice === null) delete choices[id];
       else choices[id] = choice;
-    await find(core, family.variations, choices, t`choose what they share`);
+    await find(core, family.base, family.variations, choices, t`choose what they share`);
   }
 
   async function keepVariation(core: ModelCore, name: string): Promise<boolean> {
     const { family, model, hidden } = document.peek();
-    if (family === undefined || model?.files.cad === undefined) return false;
-    const moved = activeLayers(document.peek()).some(({ key, value }) => !family.keys.includes(key) && value !== 0);
-    if (moved) {
+    if (model === null) return false;
+    const moved = activeLayers(document.peek()).some(({ key, value }) => !family?.keys.includes(key) && value !== 0);
+    if (moved && family !== undefined && family.base.of !== 'hexahedra') {
       say(t`A variation is made of the sliders of the family alone: put the edits beside it back to 0 first.`, 'error');
       return false;
     }
-    const ids = shapeIds(model.files.cad, model.shape);
+    const first = family === undefined ? boxProgram(model.shape, (id) => nameOf(document.peek(), id)) : null;
+    const base = family?.base ?? (first?.ok ? first.base : null);
+    if (base === null) {
+      if (first?.ok === false) say(first.text, 'error');
+      return false;
+    }
+    const ids = shapeIds(base, model.shape);
     const left = absentIds(document.peek());
     const isAbsent = (id: string) => left.has(id) || hidden.has(ids.get(id) ?? '');
-    const absent = model.files.cad.parts.flatMap(({ id }) => (isAbsent(id) ? [id] : []));
-    const kept = {
-      name,
-      source: 'hand',
-      values: parametersAt(family, settingNow(family)),
-      absent,
-    };
-    return addVariations(core, [kept]);
+    const absent = base.parts.flatMap(({ id }) => (isAbsent(id) ? [id] : []));
+    if (family !== undefined && !moved) {
+      const values = parametersAt(family, settingNow(family));
+      return addVariations(core, [{ name, source: 'hand', values, absent } as NamedVariation]);
+    }
+    const boxes = boxesNow(model);
+    if (!boxes.ok) {
+      say(boxes.text, 'error');
+      return false;
+    }
+    const kept = { name, source: 'edit', bounds: Object.fromEntries(boxes.bounds), absent };
+    const others = (family?.variations?.variations ?? []).filter((other) => other.name !== name);
+    const variations = { format: 'parsel/variations', version: 1, variations: [...others, kept] };
+    return find(core, base, variations, family?.choices ?? none, t`keep “${name}”`, name);
+  }
+
+  /** The boxes of the parts where all sliders stand; refused where there are others, or more, than at rest. */
+  function boxesNow({ shape }: OpenModel): BoundsRead {
+    const named = (id: string) => nameOf(document.peek(), id);
+    const state = compiled.peek();
+    if (state.kind === 'refused') return { ok: false, text: state.text };
+    if (state.kind === 'none') return boxesOf(shape, [], named);
+    const { groups, corners } = state.evaluator;
+    const changed = groups.find((group) => group !== null && group.count !== group.relation.parts.length);
+    if (changed) {
+      return {
+        ok: false,
+        text: t`A variation has as many parts as the model: put the number of “${named(changed.relation.parent)}” back first.`,
+      };
+    }
+    return boxesOf(shape, corners, named);
   }
 
   async function addVariations(core: ModelCore, added: readonly NamedVariation[]): Promise<boolean> {
@@ -264,15 +340,22 @@ export function createFamily(
     const others = (family.variations?.variations ?? []).filter(({ name }) => !names.has(name));
     const variations = { format: 'parsel/variations', version: 1, variations: [...others, ...added] };
     const label = added.length === 1 ? t`keep “${first.name}”` : t`keep ${added.length} kinds`;
-    return find(core, variations, family.choices, label);
+    return find(core, family.base, variations, family.choices, label);
   }
 
   async function removeVariation(core: ModelCore, variation: number): Promise<void> {
     const { family } = document.peek();
     const list = family?.variations?.variations;
     if (family === undefined || list === undefined) return;
+    const label = t`remove “${list[variation]?.name ?? ''}”`;
+    if (list.length === 1 && family.base.of === 'hexahedra') {
+      // There is nothing but the model then, and no family.
+      const { family: _, ...rest } = document.peek();
+      history.push(label, { ...rest, layers: editsOf(document.peek()) });
+      return;
+    }
     const variations = { ...family.variations, variations: list.filter((_, i) => i !== variation) };
-    await find(core, variations, family.choices, t`remove “${list[variation]?.name ?? ''}”`);
+    await find(core, family.base, variations, family.choices, label);
   }
 
   return {

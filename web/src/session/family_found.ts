@@ -1,4 +1,5 @@
-// The family of a CAD program: what the core found, and what a person chose of it.
+// The family of a CAD program, or of a model of boxes: what the core found, and what a person chose of it.
+import type { CadSource } from '../scene/load';
 import type { MethodResult } from '../worker/protocol';
 
 export type FoundFamily = MethodResult<'find_family'>;
@@ -16,6 +17,8 @@ export type Variations = { readonly variations: readonly NamedVariation[] } | nu
 
 /** What the core found for a program, its variations and what was chosen. */
 export interface FamilySource {
+  /** The program, or what stands for one: box_family.ts. */
+  readonly base: CadSource;
   readonly found: FoundFamily;
   /** A GLB of each variation. */
   readonly pictures: readonly Uint8Array[];

@@ -1,8 +1,8 @@
-// The family of a CAD program as a part of the work, and the arithmetic of its sliders: settings, stops, mixtures. All
+// The family of a CAD program, or of a model of boxes, as a part of the work, and the arithmetic of its sliders: settings, stops, mixtures. All
 // lengths are in the program's own unit.
 import type { Layer, Program, Shape } from '../program/types';
 import type { CadSource } from '../scene/load';
-import { type Document, type LayerEntry, withFreshParameters } from './document';
+import { type Document, type LayerEntry, partKey, withFreshParameters } from './document';
 import type { Choice, FamilySource } from './family_found';
 
 /** One value a slider. */
@@ -91,14 +91,19 @@ function fraction(text: string): number {
 
 /** Ids of the shape by ids of the program: node i of the file is the i-th part that adds material. */
 export function shapeIds(cad: CadSource, shape: Shape): ReadonlyMap<string, string> {
+  if (cad.of === 'hexahedra') {
+    return new Map(shape.parts.flatMap((part) => (part.virtual ? [] : [[partKey(part), part.id]])));
+  }
   const byNode = new Map(shape.parts.filter(({ virtual }) => !virtual).map(({ node, id }) => [node, id]));
   const drawn = cad.parts.filter(({ role }) => role === 'add');
   return new Map(drawn.flatMap(({ id }, node) => (byNode.has(node) ? [[id, byNode.get(node) as string]] : [])));
 }
 
 /** The layers of a family's program, in the words of the shape. */
-export function familyLayers({ found }: FamilySource, shape: Shape, taken: ReadonlySet<string>): Layer[] {
-  const byNode = new Map(shape.parts.filter(({ virtual }) => !virtual).map(({ node, id }) => [`node:${node}`, id]));
+export function familyLayers({ base, found }: FamilySource, shape: Shape, taken: ReadonlySet<string>): Layer[] {
+  const ids = shapeIds(base, shape);
+  const drawn = base.parts.filter(({ role }) => role === 'add');
+  const byNode = new Map(drawn.map(({ id }, node) => [`node:${node}`, ids.get(id)]));
   const { layers } = found.program as unknown as Program;
   return withFreshParameters(layers, taken).map((layer) => ({
     ...layer,
@@ -133,7 +138,8 @@ export function withFamily(
   const weights = source.found.family.variations.map(() => 0);
   const first = document.layers.slice(0, sliders.length);
   const without = stillOptional(source, saved?.without ?? []);
-  const isHere = saved?.sliders === sliders.length && first.every(({ layer }, k) => layer.request === sliders[k]?.name);
+  const own = familyLayers(source, shape, new Set());
+  const isHere = saved?.sliders === sliders.length && first.every(({ layer }, k) => isSameSlider(layer, own[k]));
   if (isHere) return { ...document, family: { ...source, weights, without, keys: first.map(({ key }) => key) } };
   const taken = new Set(document.layers.map(({ layer }) => layer.parameter.name));
   const entries = familyLayers(source, shape, taken).map((layer) => newEntry(layer));
@@ -144,11 +150,18 @@ export function withFamily(
   };
 }
 
+/** Whether a layer is a slider of the family: by its name, or, where its parts go by other names now, by what it moves. */
+function isSameSlider(layer: Layer, slider: Layer | undefined): boolean {
+  if (slider === undefined) return false;
+  const moved = ({ statements }: Layer) =>
+    statements.map((statement) => ('feature' in statement ? `${statement.part} ${statement.feature.join(' ')}` : ''));
+  return layer.request === slider.request || moved(layer).join('; ') === moved(slider).join('; ');
+}
+
 /** Parts that the variation on the stage lacks, by id of the shape: optional ones that are hidden. */
 export function absentParts({ family, model, hidden }: Document): ReadonlySet<string> {
-  const cad = model?.files.cad;
-  if (family === undefined || cad === undefined || model === null) return new Set();
-  const ids = shapeIds(cad, model.shape);
+  if (family === undefined || model === null) return new Set();
+  const ids = shapeIds(family.base, model.shape);
   const optional = family.found.family.optional.flatMap(({ parts }) => parts.map((id) => ids.get(id) ?? ''));
   return new Set(optional.filter((id) => hidden.has(id)));
 }
@@ -159,18 +172,16 @@ export const stillOptional = ({ found }: FamilySource, ids: readonly string[]): 
 
 /** Whether parts that are absent together are there, by id of the program. */
 export function areThere({ family, model, hidden }: Document, parts: readonly string[]): boolean {
-  const cad = model?.files.cad;
-  if (family === undefined || cad === undefined || model === null) return true;
-  const ids = shapeIds(cad, model.shape);
+  if (family === undefined || model === null) return true;
+  const ids = shapeIds(family.base, model.shape);
   return !parts.some((id) => family.without.includes(id) || hidden.has(ids.get(id) ?? ''));
 }
 
 /** A document with its optional parts there or not: hidden, or, where they only cut, left out. */
 export function withOptional(document: Document, isThere: (parts: readonly string[]) => boolean): Document {
   const { family, model } = document;
-  const cad = model?.files.cad;
-  if (family === undefined || cad === undefined || model === null) return document;
-  const ids = shapeIds(cad, model.shape);
+  if (family === undefined || model === null) return document;
+  const ids = shapeIds(family.base, model.shape);
   const hidden = new Set(document.hidden);
   const without: string[] = [];
   for (const { parts } of family.found.family.optional) {
@@ -196,9 +207,9 @@ export const editsOf = ({ layers, family }: Document): readonly LayerEntry[] =>
   family === undefined ? layers : layers.filter(({ key }) => !family.keys.includes(key));
 
 /** What is kept of a family in links and files; absent where there is none. */
-export function savedFamily({ family, model }: Document): SavedFamily | undefined {
+export function savedFamily({ family }: Document): SavedFamily | undefined {
   if (family === undefined) return undefined;
-  const isOwn = family.variations === (model?.files.cad?.variations ?? null);
+  const isOwn = family.variations === family.base.variations;
   return {
     sliders: family.keys.length,
     choices: Object.entries(family.choices),

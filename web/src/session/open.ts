@@ -94,7 +94,7 @@ async function abstract(
       [labels, corrections] = [noLabels, noCorrections];
       shape = await core.open(files, options);
     }
-    const family = await familyOf(core, files, given?.saved.family, options);
+    const family = await familyOf(core, { files, shape }, given?.saved.family, options);
     await prepare(files);
     options.signal.throwIfAborted();
     const model = withCorrections({ files, source, shape, labels }, corrections);

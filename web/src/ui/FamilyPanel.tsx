@@ -1,14 +1,13 @@
-// The family of a CAD program: its variations as pictures, the few sliders that they leave, mixtures, parts that not all
+// The family of a CAD program, or of kept variations: its variations as pictures, the few sliders that they leave, mixtures, parts that not all
 // have, and what they have in common.
 
-import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { models } from '../session/core';
 import type { OpenModel } from '../session/document';
 import type { FamilyState } from '../session/family_found';
 import { absentIds, areThere, shapeIds } from '../session/family_state';
 import { interrupt } from '../session/play';
-import { family as actions, document, step, task } from '../session/session';
+import { family as actions, document, step } from '../session/session';
 import { plural, t } from '../texts/texts';
 import { FamilyKinds, SuggestKinds } from './FamilyKinds';
 import { FamilyShared } from './FamilyShared';
@@ -16,16 +15,18 @@ import { FamilySlider } from './FamilySlider';
 import { exportScad, exportSets } from './family_export';
 import { drawFamily, familyPictures } from './family_pictures';
 import { Icon } from './Icon';
+import { KeepVariation } from './KeepVariation';
 import { capital } from './words';
 
 export function FamilyPanel() {
   const { model, family, hidden } = document.value;
-  const cad = model?.files.cad;
-  const ids = useMemo(() => (model && cad ? shapeIds(cad, model.shape) : new Map<string, string>()), [model, cad]);
-  if (model === null || family === undefined || cad === undefined) return null;
+  const base = family?.base;
+  const ids = useMemo(() => (model && base ? shapeIds(base, model.shape) : new Map<string, string>()), [model, base]);
+  if (model === null || family === undefined) return null;
   const left = absentIds(document.value);
   const isAbsent = (id: string) => left.has(id) || hidden.has(ids.get(id) ?? '');
   const { sliders, counts, warnings } = family.found.family;
+  const isOfProgram = family.base.of === undefined;
   const sections = [...new Set(sliders.map(({ section }) => section))];
   return (
     <div class="family">
@@ -35,7 +36,11 @@ export function FamilyPanel() {
       <section aria-label={t`Sliders`}>
         <h3>
           {plural(counts.sliders, '{n} slider', '{n} sliders')}{' '}
-          <span class="quiet">{t`for ${Object.keys(family.found.values).length} numbers of the program`}</span>
+          <span class="quiet">
+            {isOfProgram
+              ? t`for ${Object.keys(family.found.values).length} numbers of the program`
+              : t`for ${Object.keys(family.found.values).length} numbers of the parts`}
+          </span>
         </h3>
         {sections.map((section) => (
           <div key={section} class="family-section">
@@ -51,7 +56,7 @@ export function FamilyPanel() {
         ))}
       </section>
       <Mix family={family} />
-      <FamilyShared family={family} cad={cad} ids={ids} />
+      <FamilyShared family={family} cad={family.base} ids={ids} />
       {warnings.length > 0 && (
         <ul class="quiet">
           {warnings.map((text) => (
@@ -114,47 +119,16 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
           </li>
         ))}
       </ul>
-      <SuggestKinds />
-      <Keep family={family} />
+      {family.base.of === undefined && <SuggestKinds />}
+      <KeepVariation />
     </section>
-  );
-}
-
-/** What stands on the stage, as one more variation. */
-function Keep({ family }: { family: FamilyState }) {
-  const name = useSignal('');
-  const typed = name.value.trim();
-  const taken = family.found.family.variations.some((variation) => variation.name === typed);
-  return (
-    <form
-      class="row keep"
-      onSubmit={async (event) => {
-        event.preventDefault();
-        if (models.value === null || typed === '' || taken) return;
-        if (await actions.keepVariation(models.value, typed)) name.value = '';
-      }}
-    >
-      <input
-        class="grow"
-        type="text"
-        maxLength={60}
-        placeholder={t`Name of what you see`}
-        aria-label={t`Name of the variation`}
-        value={name.value}
-        onInput={(event) => (name.value = event.currentTarget.value)}
-      />
-      <button type="submit" class="button" disabled={typed === '' || taken || task.value !== null}>
-        {taken ? t`Name is taken` : t`Keep as variation`}
-      </button>
-    </form>
   );
 }
 
 /** Parts that not all variations have. */
 function Optional({ family }: { family: FamilyState }) {
-  const { model } = document.value;
   const { optional } = family.found.family;
-  const parts = model?.files.cad?.parts ?? [];
+  const { parts } = family.base;
   if (optional.length === 0) return null;
   return (
     <fieldset class="optional">

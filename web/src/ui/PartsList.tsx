@@ -165,7 +165,7 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
 function selectRange(rows: readonly PartRow[], from: string, to: string): void {
   const [a, b] = [from, to].map((id) => rows.findIndex(({ part }) => part.id === id)) as [number, number];
   if (a < 0 || b < 0) {
-    select(to);
+    selectAlso(to); // the range begins at a row that is folded away, or does not match the search
     return;
   }
   const range = rows.slice(Math.min(a, b), Math.max(a, b) + 1).map(({ part }) => part.id);

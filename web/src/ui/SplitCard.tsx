@@ -7,6 +7,7 @@ import { document, task } from '../session/session';
 import {
   declineSplit,
   findWays,
+  isSplitSo,
   offersSplit,
   splitDefaults,
   splitModel,
@@ -58,7 +59,7 @@ export function SplitCard() {
           type="button"
           class="button wide quiet"
           disabled={isOff}
-          title={why ?? t`Looks what comes apart: by what hangs together, by material, along creases`}
+          title={why ?? t`Looks for what comes apart: by what hangs together, by material, along creases`}
           onClick={() => models.value && void findWays(models.value)}
         >
           {now ? t`Split it another way` : t`Split into parts`}
@@ -90,19 +91,31 @@ function WayChoice({ ways, now, isOff, why }: ChoiceProps & { ways: Ways; now: S
   if (ways.found.length === 0) return <p class="quiet">{t`Nothing comes apart by itself.`}</p>;
   return (
     <ul class="ways" aria-label={t`Ways to split it`}>
-      {ways.found.map(({ by, parts, isTooMany }) => {
-        // As fine as it was asked for, and done so: by this way, or by one that was chosen as the best.
-        const isDone =
-          now !== null && now.fine === ways.fine && now.parts === parts && (now.by === by || now.by === 'auto');
+      {now === null && ways.found.some(({ isTooMany }) => isTooMany) && (
+        <li>
+          <button
+            type="button"
+            class="button wide"
+            disabled={isOff}
+            title={why ?? t`Small pieces go to what they sit on, until there are few enough`}
+            onClick={() => models.value && void splitModel(models.value, 'auto', ways.fine)}
+          >
+            {t(wayWords.auto)}
+          </button>
+        </li>
+      )}
+      {ways.found.map((way) => {
+        const { by, parts, isTooMany } = way;
+        const isDone = isSplitSo(now, way);
         return (
           <li key={by}>
             <button
               type="button"
               class="button wide"
               aria-pressed={isDone}
-              disabled={isOff || isTooMany || isDone}
+              disabled={isOff || isTooMany}
               title={why ?? (isTooMany ? t`More parts than a model may have: split it coarser` : undefined)}
-              onClick={() => models.value && void splitModel(models.value, by, ways.fine)}
+              onClick={() => models.value && !isDone && void splitModel(models.value, by, ways.fine)}
             >
               <span>{t(wayWords[by])}</span>
               <span class="quiet">{plural(parts, '{n} part', '{n} parts')}</span>

@@ -10,11 +10,10 @@ import { download } from './actions';
 async function text() {
   const core = models.peek();
   const { model, family } = document.peek();
-  const cad = model?.files.cad;
-  if (core === null || model === null || family === undefined || cad === undefined) return null;
+  if (core === null || model === null || family === undefined) return null;
   const made = await run(t`Writing the program`, () =>
     core.familyText({
-      cad: cad.program,
+      cad: family.base.program,
       variations: family.variations,
       choices: { ...family.choices },
       setting: [...actions.settingNow(family)],
