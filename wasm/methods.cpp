@@ -148,6 +148,19 @@ Result<Output> split(const Input& input) {
   return Output{std::move(result), {std::move(made->glb)}};
 }
 
+/// fine: from 0 to 1. What each way would tell apart; nothing is split.
+Result<Output> ways_to_split(const Input& input) {
+  if (!model) return no_model();
+  const json fine = input.parameters.value("fine", json());
+  if (!fine.is_number()) return wrong_parameter("fine", "a number");
+  const Result<SplitWays> found = split_ways(model->file, model->external, fine.get<double>(), input.progress);
+  if (!found.ok()) return found.error();
+  json ways = json::array();
+  for (const SplitWay& way : found->ways)
+    ways.push_back({{"by", to_string(way.by)}, {"parts", way.parts}, {"too_many", way.too_many}});
+  return Output{{{"before", found->before}, {"ways", std::move(ways)}}, {}};
+}
+
 /// edit: parsel/edit v1.
 Result<Output> propagate_edit(const Input& input) {
   if (!model) return no_model();
@@ -388,6 +401,7 @@ constexpr std::array all_methods = {
     Method{"solve", solve},
     Method{"open", open},
     Method{"split", split},
+    Method{"split_ways", ways_to_split},
     Method{"propagate", propagate_edit},
     Method{"offers", offers},
     Method{"propagate_clean", propagate_clean},

@@ -9,7 +9,9 @@ export default defineConfig({
     include: ['tests/e2e/**/*.test.ts'],
     environment: 'node',
     fileParallelism: false,
-    // Nothing is tried twice, and nothing fails for being slow: these tell what hangs from what a busy machine is late with.
+    // Nothing fails for being slow: these tell what hangs from what a busy machine is late with. One test in some hundreds
+    // still reads the page between two of its frames; what fails twice is a fault.
+    retry: 1,
     testTimeout: 300_000,
     expect: { poll: { timeout: 60_000 } },
     hookTimeout: 120_000,

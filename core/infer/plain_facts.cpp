@@ -20,7 +20,7 @@ constexpr double near_floor = 0.10;    ///< likewise: a pole on a base
 constexpr double tall_support = 0.25;  ///< likewise
 constexpr double tall_whole = 0.40;    ///< likewise: what sets it
 
-Extent box_of(const Corners& corners) {
+PartBox box_of(const Corners& corners) {
   return {corners.colwise().minCoeff().transpose(), corners.colwise().maxCoeff().transpose()};
 }
 
@@ -43,7 +43,7 @@ ShapeFacts::ShapeFacts(const Shape& shape)
   bool first = true;
   for (const PartIndex p : shape.parts.indices()) {
     if (shape.parts[p].is_virtual()) continue;
-    const Extent box = extent(p);
+    const PartBox box = extent(p);
     whole_.low = first ? box.low : Vec3(whole_.low.cwiseMin(box.low));
     whole_.high = first ? box.high : Vec3(whole_.high.cwiseMax(box.high));
     first = false;
@@ -52,7 +52,7 @@ ShapeFacts::ShapeFacts(const Shape& shape)
     const Relation& relation = shape.relations[r];
     const auto* joint = std::get_if<Attachment>(&relation.detail);
     if (joint == nullptr || joint->points.empty()) continue;
-    Extent at{joint->points.front(), joint->points.front()};
+    PartBox at{joint->points.front(), joint->points.front()};
     for (const Vec3& point : joint->points) {
       at.low = at.low.cwiseMin(point);
       at.high = at.high.cwiseMax(point);
@@ -62,7 +62,7 @@ ShapeFacts::ShapeFacts(const Shape& shape)
   }
 }
 
-Extent ShapeFacts::extent(PartIndex part) const {
+PartBox ShapeFacts::extent(PartIndex part) const {
   return box_of(shape_.parts[part].hexahedron.corners);
 }
 
@@ -124,11 +124,11 @@ bool ShapeFacts::may_be_ring(PartIndex part) const {
 }
 
 bool ShapeFacts::stands(PartIndex part) const {
-  const Extent own = extent(part);
+  const PartBox own = extent(part);
   const double height = own.size()[1];
   if (own.low[1] - whole_.low[1] <= on_floor * whole_.size()[1]) return true;
   return std::any_of(joints_[part.value()].begin(), joints_[part.value()].end(), [&](const Joint& joint) {
-    const Extent other = extent(joint.other);
+    const PartBox other = extent(joint.other);
     return other.centre()[1] < own.low[1] + 0.1 * height &&
            std::abs(other.high[1] - own.low[1]) <= 0.15 * height + 0.01;
   });
@@ -136,17 +136,17 @@ bool ShapeFacts::stands(PartIndex part) const {
 
 bool ShapeFacts::hangs(PartIndex part) const {
   if (stands(part)) return false;
-  const Extent own = extent(part);
+  const PartBox own = extent(part);
   const double height = own.size()[1];
   return std::any_of(joints_[part.value()].begin(), joints_[part.value()].end(), [&](const Joint& joint) {
-    const Extent other = extent(joint.other);
+    const PartBox other = extent(joint.other);
     return other.centre()[1] > own.high[1] - 0.1 * height &&
            std::abs(other.low[1] - own.high[1]) <= 0.15 * height + 0.01;
   });
 }
 
 int ShapeFacts::joined_end(PartIndex part, int axis) const {
-  const Extent own = extent(part);
+  const PartBox own = extent(part);
   int end = 0;
   for (const Joint& joint : joints_[part.value()]) {
     const double at = (joint.at.centre()[axis] - own.centre()[axis]) / std::max(own.size()[axis] / 2, 1e-9);
@@ -158,13 +158,13 @@ int ShapeFacts::joined_end(PartIndex part, int axis) const {
 }
 
 std::optional<PartIndex> ShapeFacts::support(PartIndex part) const {
-  const Extent own = extent(part);
+  const PartBox own = extent(part);
   const double height = whole_.size()[1];
   for (const PartIndex p : active_) {
     const bool joined = std::any_of(joints_[part.value()].begin(), joints_[part.value()].end(),
                                     [&](const Joint& joint) { return joint.other == p; });
     if (!joined) continue;
-    const Extent other = extent(p);
+    const PartBox other = extent(p);
     const bool below =
         other.centre()[1] < own.low[1] && std::abs(other.high[1] - own.low[1]) <= 0.04 * height + 0.5 * own.size()[1];
     const bool carries =
@@ -206,7 +206,7 @@ std::optional<PartIndex> ShapeFacts::upright() const {
   const double height = whole_.size()[1];
   std::vector<PartIndex> found;
   for (const PartIndex p : active_) {
-    const Extent own = extent(p);
+    const PartBox own = extent(p);
     // A group is as tall as its instances: shelves are not, columns are.
     const double tall = shape_.parts[p].is_virtual() ? edges(p)[1] : own.size()[1];
     if (own.low[1] - whole_.low[1] <= near_floor * height && tall >= tall_whole * height) found.push_back(p);
@@ -267,7 +267,7 @@ std::vector<PartIndex> ShapeFacts::carried_by(const std::vector<PartIndex>& part
 }
 
 std::pair<int, int> ShapeFacts::outward(PartIndex part) const {
-  const Extent own = extent(part);
+  const PartBox own = extent(part);
   std::pair<int, int> best = {2, 1};
   double least = 2;
   for (const int axis : {2, 0}) {
@@ -281,9 +281,9 @@ std::pair<int, int> ShapeFacts::outward(PartIndex part) const {
 }
 
 int ShapeFacts::hinge(PartIndex door) const {
-  const Extent own = extent(door);
+  const PartBox own = extent(door);
   for (const Joint& joint : joints_[door.value()]) {
-    const Extent other = extent(joint.other);
+    const PartBox other = extent(joint.other);
     const bool small = other.size()[0] < 0.4 * own.size()[0] && other.size()[1] < 0.8 * own.size()[1];
     const double offset = other.centre()[0] - own.centre()[0];
     if (small && std::abs(offset) > 0.1 * own.size()[0]) return offset > 0 ? -1 : 1;

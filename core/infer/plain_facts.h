@@ -9,7 +9,8 @@
 
 namespace parsel {
 
-struct Extent {
+/// The box of a part or of the whole, along the axes.
+struct PartBox {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
   Vec3 size() const { return high - low; }
   Vec3 centre() const { return (low + high) / 2; }
@@ -21,8 +22,8 @@ class ShapeFacts {
 
   const Shape& shape() const { return shape_; }
   const std::vector<PartIndex>& active() const { return active_; }
-  const Extent& whole() const { return whole_; }
-  Extent extent(PartIndex part) const;
+  const PartBox& whole() const { return whole_; }
+  PartBox extent(PartIndex part) const;
   /// Edge lengths along the part's own axes, of which axis i is the one nearest to global axis i; of a group, those of
   /// an instance.
   Vec3 edges(PartIndex part) const;
@@ -69,13 +70,13 @@ class ShapeFacts {
  private:
   struct Joint {
     PartIndex other;
-    Extent at;
+    PartBox at;
   };
   const Shape& shape_;
   std::vector<PartIndex> active_;
   std::vector<RelationIndex> relations_;
   std::vector<std::vector<Joint>> joints_;  ///< by part
-  Extent whole_;
+  PartBox whole_;
 };
 
 /// The global axis that a unit vector is most along.

@@ -100,7 +100,7 @@ class Offers {
   }
 
   bool is_leg(PartIndex part) const {
-    const Extent own = facts_.extent(part);
+    const PartBox own = facts_.extent(part);
     const double height = facts_.whole().size()[1];
     const double tall = facts_.edges(part)[1];
     const bool upright = tall >= 0.999 * facts_.edges(part).maxCoeff();
@@ -122,8 +122,8 @@ class Offers {
   }
 
   bool is_back(PartIndex part) const {
-    const Extent own = facts_.extent(part);
-    const Extent& whole = facts_.whole();
+    const PartBox own = facts_.extent(part);
+    const PartBox& whole = facts_.whole();
     const Vec3 e = facts_.edges(part);
     return !shape_.parts[part].is_virtual() && e[1] > 2 * e[2] && own.size()[0] >= back_width * whole.size()[0] &&
            own.centre()[2] < whole.centre()[2] - 0.2 * whole.size()[2] &&
@@ -136,7 +136,7 @@ class Offers {
     // Not the apron at the back of a table.
     const double height = facts_.whole().size()[1];
     std::erase_if(parts, [&](PartIndex p) {
-      const Extent own = facts_.extent(p);
+      const PartBox own = facts_.extent(p);
       return own.low[1] <= facts_.whole().low[1] + back_above * height || own.size()[1] < back_height * height;
     });
     if (parts.empty()) {

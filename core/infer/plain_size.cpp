@@ -141,7 +141,7 @@ Meant PartMeaning::size_of(PartIndex part, const std::vector<PartIndex>& set) {
 }
 
 bool PartMeaning::joined_across(const std::vector<PartIndex>& set, int axis) const {
-  const Extent own = facts_.extent(set.front());
+  const PartBox own = facts_.extent(set.front());
   return set.size() == 1 || std::abs(own.centre()[axis] - facts_.whole().centre()[axis]) < beside;
 }
 

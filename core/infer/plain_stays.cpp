@@ -85,11 +85,11 @@ std::string keep_the_rest(const ShapeFacts& facts, PlainEdit& edit) {
         along[p] = s.op == Op::rotate ? Hint::rotate : Hint::translate;
     }
     if (s.op != Op::scale_1d || !goes_up(s)) continue;
-    const Extent own = facts.extent(part);
+    const PartBox own = facts.extent(part);
     const double slack = 0.1 * own.size()[1];
     for (const PartIndex p : facts.active()) {
       if (changed.count(p) > 0) continue;
-      const Extent other = facts.extent(p);
+      const PartBox other = facts.extent(p);
       if (other.low[1] >= own.high[1] - slack) along[p] = Hint::translate;
       // Beside it, and reaching above its middle: up with it, longer with it, or where it is?
       else if (other.high[1] > own.centre()[1])

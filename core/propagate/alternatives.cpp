@@ -113,7 +113,8 @@ class Alternatives : public Attempt {
                     RelationData<std::optional<Contact>>(shape_.relations.size()),
                     PartData<std::optional<Footing>>(shape_.parts.size()),
                     {request_.seed_parts.begin(), request_.seed_parts.end()},
-                    asked_to_turn()};
+                    asked_to_turn(),
+                    asked_to_shift()};
     for (const RelationIndex r : shape_.relations.indices()) {
       const Relation& relation = shape_.relations[r];
       if (!relation.is_attachment()) continue;
@@ -151,6 +152,15 @@ class Alternatives : public Attempt {
       if (hint == Hint::rotate) turning.insert(part);
     }
     return turning;
+  }
+
+  std::set<PartIndex> asked_to_shift() const {
+    std::set<PartIndex> shifted;
+    for (std::size_t i = 0; i < request_.seed.size(); ++i) {
+      const Statement& seed = request_.seed[i];
+      if (seed.op == Op::translate && seed.feature == LocalTriple{0, 0, 0}) shifted.insert(request_.seed_parts[i]);
+    }
+    return shifted;
   }
 
   /// Parts that a hint keeps fixed.

@@ -83,7 +83,8 @@ double price_of_relation(const Prices& prices, const Relation& relation, double 
   if (off > unseen) seen = std::min(prices.seen_most, prices.seen + prices.seen_by * (off - unseen));
   if (residual <= exact) return residual + seen;
   if (change && off <= unseen && change->lost <= most_lost) {
-    const double slides = prices.slide + prices.slide_lost * change->lost;
+    const double slides =
+        (state.is_asked_to_shift ? prices.asked_slide : prices.slide) + prices.slide_lost * change->lost;
     return residual <= tolerance ? std::min(slides, prices.slack * residual) : slides;
   }
   if (residual <= tolerance) return prices.slack * residual + seen;

@@ -21,6 +21,9 @@ struct Prices {
   /// A joint that slides along its face and stays on it. Dearer than a part that follows (a seat's legs go along), cheaper
   /// than a symmetry (legs under a fixed top move in on both sides).
   double slide = 3;
+  /// … where one of its parts was asked to move as a whole: a shelf between its walls. Cheaper than
+  /// to stretch what it slides along; chosen between the two.
+  double asked_slide = 1;
   /// … on top, for the share of the contact that is gone.
   double slide_lost = 4;
   /// A joint that turns about an edge of its contact: what a door or a lid does. Cheaper than to slide, dearer than what
@@ -34,7 +37,7 @@ struct Prices {
   /// Mirror images one above the other: what stands on the floor grows away from it, and its upper half is seldom asked
   /// to do the opposite of the lower one.
   double broken_stacked_mirror = 1;
-  /// Feet that leave the floor or sink into it.
+  /// Feet that leave the floor or sink into it; on top what a joint costs that is off by as much.
   double broken_ground = 5;
   /// What stands on the floor and is moved to another place, for its share of the shape's extent there: a leg goes where
   /// its table needs it, a whole cabinet does not follow its door. Chosen between the two, not measured against others.
@@ -72,6 +75,7 @@ struct RelationState {
   std::optional<ContactChange> contact;  ///< of a joint: what became of it
   bool is_asked_to_move = false;         ///< one of its parts is a seed
   bool is_asked_to_turn = false;         ///< one of its parts
+  bool is_asked_to_shift = false;        ///< one of its parts, as a whole and without turning
 };
 
 /// How far two surfaces may come apart, or enter each other, without anyone seeing it.

@@ -96,7 +96,8 @@ double price_of_footing(const Prices& prices, const Footing& footing, const Moti
     // where it was.
     dragged = dragged || (most > exact && std::min(least, mean.norm()) >= most / 2);
   }
-  return (off > exact ? prices.broken_ground : 0) + (dragged ? prices.dragged * footing.share : 0);
+  return (off > exact ? prices.broken_ground + prices.broken_by * std::min(off, 0.2) : 0) +
+         (dragged ? prices.dragged * footing.share : 0);
 }
 
 }  // namespace parsel

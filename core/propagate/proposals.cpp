@@ -383,6 +383,7 @@ double price_of_relations(const Problem& problem, const Edits& edits, PartIndex 
     const double tolerance = tolerance_of(relation, moves, !edits[other]->steps.empty());
     RelationState state;
     state.is_asked_to_move = problem.seeds.count(part) > 0 || problem.seeds.count(other) > 0;
+    state.is_asked_to_shift = problem.shifted.count(part) > 0 || problem.shifted.count(other) > 0;
     state.is_asked_to_turn = problem.turning.count(part) > 0 || problem.turning.count(other) > 0;
     if (const auto& contact = problem.contacts[index]) {
       const auto change = [&](PartIndex first, const Motion& its, PartIndex second, const Motion& others) {

@@ -41,6 +41,7 @@ struct Problem {
   PartData<std::optional<Footing>> footings;      ///< of the parts that stand on the floor
   std::set<PartIndex> seeds;                      ///< parts that were asked to do something
   std::set<PartIndex> turning;                    ///< … to turn, by a seed or a hint
+  std::set<PartIndex> shifted;                    ///< … to move as a whole
   /// Candidates fitted so far, each once for every set of constraints: what the search costs, about a million a second.
   mutable std::size_t work = 0;
 };

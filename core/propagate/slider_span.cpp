@@ -20,8 +20,8 @@ constexpr double visible = 0.1;
 constexpr double most_scale = 4;
 constexpr double open = 110 * pi / 180;
 constexpr double lean = 30 * pi / 180;
-/// An axis nearer to the vertical than 45°, and a part that stands up from its axis within 60° of it.
-constexpr double upright_axis = 0.7, standing = 0.5;
+/// A part that stands up from its axis within 60° of the vertical.
+constexpr double standing = 0.5;
 /// A part whose centre is nearer to its axis than this share of its reach spins about itself.
 constexpr double spinning = 0.1;
 /// Values of the parameter are sought up to this multiple of the least span.

@@ -7,6 +7,9 @@
 
 namespace parsel {
 
+/// An axis nearer to the vertical than 45°, about which a part opens or spins and does not lean.
+inline constexpr double upright_axis = 0.7;
+
 /// Of a parameter; low <= 0 <= high.
 struct SliderSpan {
   double low = 0, high = 0;

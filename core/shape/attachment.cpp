@@ -130,6 +130,31 @@ constexpr double parallel = 0.985;  ///< cos 10°
 /// more than half: half of a post is what modellers like, and rounding must not decide.
 constexpr double covering = 0.501;
 constexpr double leaning = 0.866;  ///< cos 30°
+/// Of two parts that run into each other the one that is longer by this much is the one whose length changes.
+constexpr double plainly_longer = 1.5;
+
+/// Where two parts are tied along an axis of one of them that none of their shared planes has: in the middle of the
+/// region, but where they run into each other, each ending within the other, at the end of the one that is plainly
+/// longer. Tied further in, a leg that ends within its top would run deeper into it the longer it gets.
+double tied_at(const Interval& region, int axis, const Box& frame, const Box& other) {
+  for (int j = 0; j < 3; ++j) {
+    const Vec3 normal = frame.axes.row(axis).transpose();
+    if (std::abs(other.axes.row(j).dot(normal)) <= parallel) continue;
+    const double half = frame.half[axis], half_other = other.half[j];
+    const double centre = (other.centre - frame.centre).dot(normal);
+    const double sign = centre > 0 ? 1 : -1;
+    const double end = sign * half, end_other = centre - sign * half_other;
+    const double low = std::min(end, end_other), high = std::max(end, end_other);
+    const double tolerance = snap_tolerance(std::min(half, half_other));
+    const auto near = [&](double a, double b) { return std::abs(a - b) <= tolerance; };
+    const bool run_through = near(-end, end_other) || near(end, centre + sign * half_other);
+    if (run_through || !near(region.low, low) || !near(region.high, high)) break;
+    if (half > plainly_longer * half_other) return end;
+    if (half_other > plainly_longer * half) return end_other;
+    break;
+  }
+  return region.middle();
+}
 
 }  // namespace
 
@@ -272,7 +297,7 @@ FoundAttachment attach(const Hexahedron& a, const Hexahedron& b, const ContactRe
       if (shared[static_cast<std::size_t>(i)]) {
         point[i] = high ? interval.high : interval.low;
       } else {
-        point[i] = interval.middle();
+        point[i] = tied_at(interval, i, frame, other);
         wanted = wanted && !high;
       }
     }

@@ -11,6 +11,10 @@
 // nothing to do with each other (the legs of a folding stool would be one block). A part inside another's box has
 // order 3.
 //
+// Along the other axes the points lie in the middle of the region, but where two parts run into each other they lie at
+// the end of the longer one: tied in the middle, a leg that ends within its top would run deeper into it the longer it
+// gets. Over 332 edits of 80 models, 20 of them furniture with parts that are named, visible overlaps fall from 67 to 58.
+//
 // Beyond the paper, an axis along which the region covers at least half of both boxes counts like a shared symmetry
 // plane, even where the region is lopsided: a bath in its panelling, a cushion in its chair. Tied at the region's
 // middle alone, the one would stay as it is while the other is stretched. Over 2288 edits of 537 models of furniture:

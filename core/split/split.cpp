@@ -104,6 +104,19 @@ class Splitter {
     return std::move(result_);
   }
 
+  SplitWays ways() {
+    result_.before = model_.meshes.size();
+    find_sources();
+    SplitWays found{result_.before, {}};
+    for (const SplitMethod by : {SplitMethod::components, SplitMethod::materials, SplitMethod::regions}) {
+      result_.by = by;
+      take_apart();
+      const std::size_t parts = count_parts();
+      found.ways.push_back({by, parts, parts > ImportLimits().parts});
+    }
+    return found;
+  }
+
  private:
   void find_sources() {
     std::map<std::size_t, std::size_t> known;  // mesh → source
@@ -162,7 +175,9 @@ class Splitter {
 
   void take_apart() {
     for (std::size_t i = 0; i < sources_.size(); ++i) {
-      report(progress_, "looking for what hangs together", static_cast<int>(i), static_cast<int>(sources_.size()));
+      const bool creases = result_.by == SplitMethod::regions;
+      report(progress_, creases ? "looking for creases" : "looking for what hangs together", static_cast<int>(i),
+             static_cast<int>(sources_.size()));
       for (Group& group : sources_[i].groups) group.apart = pieces_in(group, result_.by);
     }
     join();
@@ -319,11 +334,18 @@ std::string_view to_string(SplitMethod method) {
   return "";
 }
 
+namespace {
+
+Status check_fine(double fine) {
+  if (fine >= 0 && fine <= 1) return success();
+  return refused("how fine to split is a number from 0 to 1", "give one of these");
+}
+
+}  // namespace
+
 Result<SplitModel> split_model(std::string_view bytes, const ExternalBuffers& external, const SplitOptions& options,
                                const Progress& progress) {
-  if (!(options.fine >= 0 && options.fine <= 1)) {
-    return refused("how fine to split is a number from 0 to 1", "give one of these");
-  }
+  if (const Status fine = check_fine(options.fine); !fine) return fine.error();
   report(progress, "reading the model", 0, 1);
   const Result<ImportedModel> model = import_gltf(bytes, external);
   if (!model.ok()) return model.error();
@@ -336,6 +358,17 @@ Result<SplitModel> split_model(std::string_view bytes, const ExternalBuffers& ex
   if (!glb.ok()) return glb.error();
   result->glb = std::move(*glb);
   return result;
+}
+
+Result<SplitWays> split_ways(std::string_view bytes, const ExternalBuffers& external, double fine,
+                             const Progress& progress) {
+  if (const Status checked = check_fine(fine); !checked) return checked.error();
+  report(progress, "reading the model", 0, 1);
+  const Result<ImportedModel> model = import_gltf(bytes, external);
+  if (!model.ok()) return model.error();
+  Result<gltf::File> file = gltf::read_file(bytes, external);
+  if (!file.ok()) return file.error();
+  return Splitter(*file, *model, {SplitMethod::components, fine}, progress).ways();
 }
 
 }  // namespace parsel

@@ -50,4 +50,21 @@ struct SplitModel {
 Result<SplitModel> split_model(std::string_view bytes, const ExternalBuffers& external = {},
                                const SplitOptions& options = {}, const Progress& progress = {});
 
+/// What one way of splitting would tell apart.
+struct SplitWay {
+  SplitMethod by = SplitMethod::components;
+  std::size_t parts = 0;  ///< as SplitModel::parts
+  bool too_many = false;  ///< more than a model may have: split_model() refuses
+};
+
+struct SplitWays {
+  std::size_t before = 0;      ///< real parts of the shape
+  std::vector<SplitWay> ways;  ///< components, materials, regions
+};
+
+/// What split_model() would answer for each method but automatic, without writing anything: vertices are brought together
+/// once for all. `fine` in [0, 1]. Error: as abstract_shape(); `fine` out of range.
+Result<SplitWays> split_ways(std::string_view bytes, const ExternalBuffers& external = {}, double fine = 0.5,
+                             const Progress& progress = {});
+
 }  // namespace parsel

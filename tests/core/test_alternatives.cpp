@@ -98,6 +98,45 @@ TEST_CASE("a drawer that is pulled comes out of its chest with its knob; the che
   for (const PartIndex part : {left, right, top}) CHECK(moved(shape, found, part) == 0);
 }
 
+TEST_CASE("a shelf that is raised slides between the walls of its bookcase, which stays on its legs") {
+  test::BoxShape s;
+  const PartIndex shelf = s.box("shelf", {0, 0.18, 0}, {0.6, 0.02, 0.3});
+  const PartIndex base = s.box("base", {0, -0.34, 0}, {0.64, 0.02, 0.3});
+  const PartIndex top = s.box("top", {0, 0.69, 0}, {0.64, 0.02, 0.3});
+  std::vector<PartIndex> others = {base, top};
+  for (const double side : {-1.0, 1.0}) {
+    const std::string name = side < 0 ? "left" : "right";
+    const PartIndex wall = s.box("wall_" + name, {side * 0.62, 0.175, 0}, {0.02, 0.495, 0.3});
+    const PartIndex leg = s.box("leg_" + name, {side * 0.6, -0.53, 0}, {0.04, 0.17, 0.3});
+    const auto line = [&](double x, double y) { return std::vector<Vec3>{{x, y, -0.3}, {x, y, 0.3}}; };
+    s.attach(wall, shelf, line(side * 0.6, 0.18));
+    s.attach(wall, base, line(side * 0.62, -0.32));
+    s.attach(wall, top, line(side * 0.62, 0.67));
+    s.attach(leg, base, line(side * 0.6, -0.36));
+    s.stand(leg);
+    others.insert(others.end(), {wall, leg});
+  }
+  const Shape& shape = s.shape();
+  const Propagation found = run(shape, {{"seed", {move("shelf", Vec3::UnitY())}}});
+  CHECK(moved(shape, found, shelf) == doctest::Approx(0.2));
+  for (const PartIndex part : others) CHECK(moved(shape, found, part) == doctest::Approx(0));
+  CHECK(found.program.layers[0].parameter.max < 0.49);  // it stops under the top
+}
+
+TEST_CASE("an amount that grows faster is the same edit") {
+  const Shape shape = test::chair();
+  const auto raised = [&](const char* amount) {
+    json seed = move("seat", Vec3::UnitY());
+    seed["amount"] = amount;
+    return run(shape, {{"seed", {seed}}});
+  };
+  const Propagation plain = raised("x"), fast = raised("-3*x");
+  const State expected = Evaluator(plain.program, shape)({0.3}), same = Evaluator(fast.program, shape)({-0.1});
+  for (const PartIndex part : shape.parts.indices()) {
+    CHECK((expected.parts[part] - same.parts[part]).cwiseAbs().maxCoeff() < 1e-9);
+  }
+}
+
 TEST_CASE("one of the drawers on the front of a pedestal comes off it; the others, the pedestal and its top stay") {
   test::BoxShape s;
   const PartIndex pedestal = s.box("pedestal", {0, 0, 0}, {0.3, 0.4, 0.4});

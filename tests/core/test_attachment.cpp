@@ -67,6 +67,25 @@ TEST_CASE("points lie at the ends of the region, exactly on the parts' own faces
   CHECK(line.local_b[1] == Vec3(1, -1, 0));
 }
 
+TEST_CASE("parts that run into each other are tied where the longer one ends") {
+  const auto tie = [](double thickness) {
+    const Shape shape = fixture::shape({{"leg", box({0.3, 0.36, 0}, {0.05, 0.72, 0.05})},
+                                        {"top", box({0, 0.7 + thickness / 2, 0}, {1, thickness, 0.6})}});
+    return std::get<Attachment>(attachment(shape, "leg", "top").detail);
+  };
+  // The leg ends in the middle of the top, however long it gets it reaches no deeper.
+  CHECK(tie(0.04).local_a[0].y() == 1);
+  CHECK(tie(0.04).local_b[0].y() == doctest::Approx(0));
+  // Of two of about the same length neither is: the middle of what they share.
+  CHECK(tie(0.7).local_a[0].y() == doctest::Approx(1 - 0.02 / 0.72));
+  // A block on a short peg: the block's face.
+  CHECK(tie(2).local_b[0].y() == -1);
+  // A leg that runs through its top is tied in the middle of the top.
+  const Shape through =
+      fixture::shape({{"leg", box({0.3, 0.4, 0}, {0.05, 0.8, 0.05})}, {"top", box({0, 0.7, 0}, {1, 0.06, 0.6})}});
+  CHECK(std::get<Attachment>(attachment(through, "leg", "top").detail).local_b[0].y() == doctest::Approx(0));
+}
+
 TEST_CASE("what covers half of both boxes is tied at its ends, however lopsided it is") {
   // The bath stands out of its panelling to one side, by a fifth of its length, and leans.
   const auto inset = [](double length, double angle) {

@@ -5,7 +5,18 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
 import { serious } from './axe';
 import { stool } from './fixture';
-import { download, openPage, pick, saved, stillPicture, useSite, withoutGallery } from './harness';
+import {
+  download,
+  openModel,
+  openPage,
+  outputFolder,
+  pick,
+  saved,
+  stillPicture,
+  useSite,
+  withoutGallery,
+} from './harness';
+import { boxes } from './wall';
 
 declare const parsel: DebugHandle;
 
@@ -167,6 +178,113 @@ describe('a CAD program', () => {
     await pick(page, [file('bad.scad', 'cube(1);\nminkowski() { cube(1); sphere(1); }\n')]);
     await expect.poll(() => page.getByRole('alert').textContent()).toMatch(/line 2/i);
     expect(await page.evaluate(() => parsel.document().model?.shape.name)).toBe('stool');
+    expect(complaints).toEqual([]);
+  });
+
+  it('lacks a part that only cuts where its box is cleared: what is drawn, what looks chosen, after a reload', async () => {
+    const block = `difference() {
+  // block
+  cube([40, 20, 10]);
+  // hole
+  translate([10, 10, -1]) cylinder(d = 6, h = 12);
+}
+`;
+    const variations = [{ name: 'drilled' }, { name: 'plain', absent: ['hole'] }];
+    await pick(page, [
+      file('block.scad', block),
+      file('block.variations.json', JSON.stringify({ format: 'parsel/variations', version: 1, variations })),
+    ]);
+    await expect.poll(() => page.evaluate(() => parsel.document().model?.shape.name)).toBe('block');
+    await shown();
+    const corners = () => page.evaluate(() => parsel.stage()?.trianglesOf(0).length ?? 0);
+    const chosen = () =>
+      page.getByRole('region', { name: 'Variations' }).locator('button[aria-pressed="true"]').allTextContents();
+    const box = page.getByRole('checkbox', { name: 'hole' });
+    await expect.poll(corners).toBeGreaterThan(36);
+    expect(await box.isChecked()).toBe(true);
+    expect(await chosen()).toEqual(['as drawn', 'drilled']);
+    await box.uncheck();
+    await expect.poll(corners).toBe(36);
+    expect(await chosen()).toEqual(['plain']);
+    await page.screenshot({ path: `${outputFolder}/family-plain.png` });
+    await page.keyboard.press('Control+z');
+    await expect.poll(corners).toBeGreaterThan(36);
+    expect(await box.isChecked()).toBe(true);
+    await page.getByRole('button', { name: 'plain', exact: true }).click();
+    await expect.poll(corners).toBe(36);
+    await saved(page);
+    await page.reload();
+    await ready();
+    await shown();
+    await expect.poll(corners).toBe(36);
+    expect(await box.isChecked()).toBe(false);
+    expect(complaints).toEqual([]);
+  });
+});
+
+describe('a model that no program made', () => {
+  /** Two boards on three posts, each part a box along the axes. */
+  const board = (y: number) => ({ name: 'board', translation: [0, y, 0], scale: [1.2, 0.04, 0.4] });
+  const post = (x: number) => ({ name: 'post', translation: [x, 0.35, 0], scale: [0.06, 0.66, 0.4] });
+  const bench = boxes([board(0.7), board(0), post(-0.57), post(0), post(0.57)]);
+  const variations = () => page.getByRole('region', { name: 'Variations' }).getByRole('listitem');
+  const width = () =>
+    page.evaluate(() => {
+      const along = parsel.corners().filter((_, i) => i % 3 === 0);
+      return (Math.max(...along) - Math.min(...along)) * (parsel.document().model?.shape.frame.scale ?? 1);
+    });
+
+  beforeAll(async () => {
+    ({ page, complaints } = await openModel(site.browser, site.url, bench, { name: 'bench.glb' }));
+    const field = page.getByLabel('What to change');
+    await field.fill('wider');
+    await field.press('Enter');
+    await page.locator('.card').waitFor();
+  });
+
+  it('gets a family of its own: a state of its edits is kept, and sliders lead there', async () => {
+    const keep = page.getByRole('button', { name: 'Keep as variation' });
+    const edit = page.getByRole('slider', { name: /: amount$/ }).first();
+    await edit.fill('0');
+    const narrow = await width();
+    await expect.poll(() => keep.isDisabled()).toBe(true);
+    await edit.focus();
+    await page.keyboard.press('End');
+    const wide = await width();
+    expect(wide).toBeGreaterThan(1.1 * narrow);
+    await keep.click();
+    await page.keyboard.type('long bench');
+    await page.keyboard.press('Enter');
+    await expect.poll(() => variations().count()).toBe(2);
+    await expect.poll(() => page.locator('.variations img').count()).toBe(2);
+    expect(await width()).toBeCloseTo(wide, 4);
+    expect(await page.getByRole('button', { name: 'long bench', exact: true }).getAttribute('aria-pressed')).toBe(
+      'true',
+    );
+    await page.getByRole('button', { name: 'as drawn' }).click();
+    expect(await width()).toBeCloseTo(narrow, 4);
+    await slider('Mix in long bench').fill('0.5');
+    expect(await width()).toBeCloseTo((narrow + wide) / 2, 3);
+    expect(await serious(page)).toEqual([]);
+    await page.screenshot({ path: `${outputFolder}/family-kept.png` });
+    await page.emulateMedia({ colorScheme: 'dark' });
+    await page.screenshot({ path: `${outputFolder}/family-kept-dark.png` });
+    await page.emulateMedia({ colorScheme: 'light' });
+  });
+
+  it('is there after a reload, and gone by undo', async () => {
+    const half = await width();
+    await saved(page);
+    await page.reload();
+    await shown();
+    await page.getByRole('button', { name: 'Family', exact: true }).click();
+    await expect.poll(() => variations().count()).toBe(2);
+    expect(await width()).toBeCloseTo(half, 4);
+    await page.getByRole('button', { name: 'Remove long bench' }).click();
+    await expect.poll(() => variations().count()).toBe(0);
+    expect(await page.locator('.card').count()).toBe(1);
+    await page.getByRole('button', { name: /^Undo/ }).click();
+    await expect.poll(() => variations().count()).toBe(2); // and the tab with it
     expect(complaints).toEqual([]);
   });
 });

@@ -94,7 +94,7 @@ describe('opening', () => {
     await first.locator('.part').first().waitFor(); // the first visit opens the first model by itself
     await first.locator('.bar .model').click();
     await first.getByRole('img', { includeHidden: true }).first().waitFor({ state: 'attached' });
-    await first.locator('.thumbnail img').waitFor();
+    await first.locator('.thumbnail img').first().waitFor();
     expect(await first.getByRole('button', { name: 'A stool' }).count()).toBe(1);
     await first.context().close();
   });

@@ -92,11 +92,11 @@ describe('without a key', () => {
     await field(page).press('Enter');
     await composer(page).getByText('Understood:').waitFor();
     expect(await composer(page).textContent()).toMatch(/seat/);
-    expect(await field(page).inputValue()).toBe('');
-    expect(await layers(page)).toEqual(['widen the chair']);
+    await expect.poll(() => field(page).inputValue()).toBe('');
+    await expect.poll(() => layers(page)).toEqual(['widen the chair']);
     const slider = page.getByRole('slider').first();
     await slider.fill(String(await slider.getAttribute('max')));
-    expect(await width()).toBeGreaterThan(1.2 * before);
+    await expect.poll(width).toBeGreaterThan(1.2 * before);
     await page.getByRole('button', { name: /^Undo/ }).click();
     await page.getByRole('button', { name: /^Undo/ }).click();
     expect(await layers(page)).toEqual([]);

@@ -119,6 +119,20 @@ describe('several parts', () => {
     expect(complaints).toEqual([]);
   });
 
+  it('are selected from one row of the list to another by Shift+click', async () => {
+    const names = page.locator('.part .name');
+    const pressed = () => names.evaluateAll((all) => all.map((name) => name.getAttribute('aria-pressed') === 'true'));
+    const count = await names.count();
+    await names.nth(1).click();
+    await names.nth(count - 1).click({ modifiers: ['Shift'] });
+    await expect.poll(pressed).toEqual(Array.from({ length: count }, (_, i) => i >= 1));
+    await names.nth(2).click({ modifiers: ['Shift'] }); // the first one stays where the range begins
+    await expect.poll(pressed).toEqual(Array.from({ length: count }, (_, i) => i === 1 || i === 2));
+    await names.nth(0).click({ modifiers: ['Shift'] });
+    await expect.poll(pressed).toEqual(Array.from({ length: count }, (_, i) => i < 2));
+    expect(complaints).toEqual([]);
+  });
+
   it('are found by arrows in the list, which is one stop of the Tab key', async () => {
     await page.locator('.part .name').first().focus();
     await page.keyboard.press('Shift+ArrowDown');
@@ -148,6 +162,24 @@ describe('a thousand parts', () => {
     await expect.poll(() => page.locator('.part').last().getAttribute('aria-posinset')).toMatch(/^\d{3,}$/);
     expect(await page.locator('.part').count()).toBeLessThan(80);
     await page.screenshot({ path: `${outputFolder}/thousand.png` });
+    expect(complaints).toEqual([]);
+  });
+
+  it('and their labels are offered a few at a time, where one is typed', async () => {
+    await page.getByLabel('Find a part').fill('');
+    await page.locator('.part .name').nth(2).click();
+    const field = page.getByLabel('Label', { exact: true });
+    const offered = () =>
+      page.locator('#part-labels option').evaluateAll((all) => all.map((one) => (one as HTMLOptionElement).value));
+    await field.waitFor();
+    expect(await offered()).toEqual([]);
+    await field.focus();
+    expect((await offered()).length).toBe(50);
+    await field.fill('77');
+    const like = await offered();
+    expect(like.length).toBeGreaterThan(1);
+    expect(like.filter((label) => !label.includes('77'))).toEqual([]);
+    await field.press('Escape');
     expect(complaints).toEqual([]);
   });
 });

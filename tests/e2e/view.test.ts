@@ -32,6 +32,21 @@ const reach = (page: Page) =>
     return [Math.min(...x), Math.max(...x)] as const;
   });
 
+/** How far down the model reaches on screen, and from where on it would be covered there; CSS pixels in the window. */
+const lowest = (page: Page) =>
+  page.evaluate(() => {
+    const on = parsel.stage();
+    const all = Array.from(
+      { length: (on?.corners.length ?? 0) / 3 },
+      (_, i) => on?.corners.slice(3 * i, 3 * i + 3) ?? [],
+    );
+    return Math.max(...all.map((corner) => on?.projectMean(corner).y ?? 0));
+  });
+const coveredFrom = (page: Page) =>
+  page.evaluate(() =>
+    Math.min(...['.centre', '.composer'].map((what) => document.querySelector(what)?.getBoundingClientRect().top ?? 0)),
+  );
+
 describe('the camera', () => {
   it('keeps a model in the free part of the window as it grows, and comes back with it', async () => {
     const page = await widened();
@@ -59,6 +74,29 @@ describe('the camera', () => {
     await page.getByRole('slider').first().fill('4');
     await still(page);
     expect(await pose(page)).toEqual(own);
+    await page.context().close();
+  });
+
+  it.each([
+    ['a window', { width: 1440, height: 900 }],
+    ['a phone', { width: 390, height: 844 }],
+  ])('in %s, stands above a composer that grows, and comes back when it shrinks', async (name, viewport) => {
+    const { page, complaints } = await openModel(site.browser, site.url, stool, { reducedMotion: 'reduce', viewport });
+    await still(page);
+    const before = await pose(page);
+    const stood = await lowest(page);
+    expect(stood).toBeLessThan(await coveredFrom(page));
+    const field = page.getByLabel('What to change');
+    const shrunk = (await field.boundingBox())?.height ?? 0;
+    await field.fill(Array.from({ length: 40 }, (_, i) => `make leg ${i} longer`).join(', '));
+    await expect.poll(async () => (await field.boundingBox())?.height ?? 0).toBeGreaterThan(shrunk + 60);
+    await expect.poll(() => lowest(page)).toBeLessThan(await coveredFrom(page));
+    if (name === 'a window') expect(stood).toBeGreaterThan(await coveredFrom(page)); // as it stood, it would be hidden
+    await page.screenshot({ path: `${outputFolder}/composer-tall-${viewport.width}.png` });
+    await field.fill('');
+    await expect.poll(() => pose(page)).toEqual(before);
+    expect(await lowest(page)).toBeCloseTo(stood, 0);
+    expect(complaints).toEqual([]);
     await page.context().close();
   });
 

@@ -173,8 +173,9 @@ export function judge(predicate, rest, now, share = Infinity) {
     return { ok: Math.abs(off) <= smallest.rest, why: `off ${off.toFixed(3)}` };
   }
   const by = (measured(before, after, measure) - start) / unit;
-  const least = measure.startsWith('size') ? Math.min(smallest.change, (share * start) / unit) : smallest.change;
-  const right = { increase: by > least, decrease: by < -least, none: Math.abs(by) <= tol }[change];
+  const isThin = measure.startsWith('size') && Number.isFinite(share);
+  const seen = isThin ? Math.min(smallest.change, (share * start) / unit) : smallest.change;
+  const right = { increase: by > seen, decrease: by < -seen, none: Math.abs(by) <= tol }[change];
   if (right === undefined) throw new Error(`There is no change '${change}'.`);
   return { ok: right, why: `${by >= 0 ? '+' : ''}${by.toFixed(3)}` };
 }

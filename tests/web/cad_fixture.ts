@@ -41,15 +41,25 @@ export function cadCore(module: LoadedModule): ModelCore {
   };
 }
 
-export async function openProgram(core: ModelCore, module: LoadedModule, name: string) {
-  const beside = { name, main: programText(`${name}.scad`), external: new Map() };
-  const program = { variations: programText(`${name}.variations.json`) };
+/** @param text the program and its variations; absent: the gallery's of that name */
+export async function openProgram(
+  core: ModelCore,
+  module: LoadedModule,
+  name: string,
+  text?: { readonly scad: string; readonly variations: unknown },
+) {
+  const bytes = (one: string) => new TextEncoder().encode(one);
+  const main = text === undefined ? programText(`${name}.scad`) : bytes(text.scad);
+  const beside = { name, main, external: new Map() };
+  const variations =
+    text === undefined ? programText(`${name}.variations.json`) : bytes(JSON.stringify(text.variations));
+  const program = { variations };
   const files = (await withProgramRead(core, { ...beside, program }, options)) as ModelFiles & { cad: CadSource };
   const { shape } = callCore<{ shape: Shape }>(module, 'open', { name, external: [] }, [files.main]).result;
   const model = { files, shape, source: { kind: 'file' as const }, labels: noLabels };
   const session = createSession();
-  const source = await familyOf(core, files, undefined, options);
-  session.replaceDocument(withFamily({ ...emptyDocument, model }, source, 0, session.newEntry), `open ${name}`);
+  const source = await familyOf(core, model, undefined, options);
+  session.replaceDocument(withFamily({ ...emptyDocument, model }, source, undefined, session.newEntry), `open ${name}`);
   const family = () => session.document.value.family as FamilyState;
   return { session, family, model, cad: files.cad };
 }

@@ -83,3 +83,38 @@ describe('a view of a person’s own', () => {
     expect(rig.pose).toEqual(own);
   });
 });
+
+describe('panels', () => {
+  const middle = () => onCanvas(boxOf(0, 0, 0))[0]?.y ?? 0;
+  const between = (bottom: number) => (insets.top + height - bottom) / 2;
+  const taller = { ...insets, bottom: 350 };
+
+  it('that come or grow move what is between them there, not at once', () => {
+    expect(middle()).toBeCloseTo(between(insets.bottom), 3);
+    rig.resize(width, height, taller);
+    rig.camera.updateMatrixWorld();
+    expect(middle()).toBeCloseTo(between(insets.bottom), 3);
+    expect(rig.update(1 / 60)).toBe(true);
+    expect(middle()).toBeLessThan(between(insets.bottom) - 5);
+    expect(middle()).toBeGreaterThan(between(taller.bottom) + 5);
+    settle();
+    expect(middle()).toBeCloseTo(between(taller.bottom), 3);
+  });
+
+  it('that come with a model are where they are when it is first seen', () => {
+    rig.fit(small.getBoundingSphere(new three.Sphere()), false, true);
+    rig.update(1 / 60);
+    rig.resize(width, height, taller);
+    expect(middle()).toBeCloseTo(between(taller.bottom), 3);
+    rig.fit(small.getBoundingSphere(new three.Sphere()), true, true);
+    rig.update(1 / 60);
+    rig.camera.updateMatrixWorld();
+    expect(isInFreePart(small)).toBe(true);
+  });
+
+  it('that cover nearly all leave a little for the model', () => {
+    rig.resize(width, height, { ...insets, bottom: 2 * height });
+    settle();
+    expect(middle()).toBeCloseTo(insets.top + 40, 3);
+  });
+});

@@ -93,6 +93,7 @@ export function fakeCore(): FakeCore {
     plain: readPlainly([], false),
     open: () => Promise.reject(new Error('not here')),
     split: () => Promise.reject(new Error('not here')),
+    splitWays: () => Promise.reject(new Error('not here')),
     apply: () => Promise.reject(new Error('not here')),
     async propagate(_, asked, { signal }) {
       core.asked.push(partOf(asked));

@@ -5,7 +5,17 @@ import { emptyDocument } from '../../web/src/session/document';
 import { familyOf, withProgramRead } from '../../web/src/session/family';
 import type { FamilyState } from '../../web/src/session/family_found';
 import { choicesFor, sharedClasses } from '../../web/src/session/family_shared';
-import { baseOf, editsOf, lengthAt, mixed, settingOf, stopsOf, withFamily } from '../../web/src/session/family_state';
+import {
+  absentIds,
+  areThere,
+  baseOf,
+  editsOf,
+  lengthAt,
+  mixed,
+  settingOf,
+  stopsOf,
+  withFamily,
+} from '../../web/src/session/family_state';
 import type { ModelCore } from '../../web/src/session/model_core';
 import { createSession } from '../../web/src/session/session';
 import { readSaved, save } from '../../web/src/share/saved';
@@ -41,7 +51,7 @@ describe('the family of a program', () => {
       for (const [i, { absent }] of variations.entries()) {
         session.family.showVariation(i);
         const now = session.family.settingNow(family());
-        expect(session.family.isAt(family(), settingOf(family(), i))).toBe(true);
+        expect(session.family.isShown(i)).toBe(true);
         for (const [k, { parameter }] of sliders.entries()) {
           if (absent.includes(parameter.split('.')[0] as string)) continue; // moves nothing that is there
           expect(now[k]).toBeCloseTo(settingOf(family(), i)[k] as number, 6);
@@ -53,7 +63,7 @@ describe('the family of a program', () => {
         }
       }
       session.undo();
-      expect(session.family.isAt(family(), settingOf(family(), variations.length - 2))).toBe(true);
+      expect(session.family.isShown(variations.length - 2)).toBe(true);
     },
   );
 
@@ -166,6 +176,69 @@ describe('the family of a program', () => {
     expect(family().found.family.variations).toHaveLength(length);
   });
 
+  /** A block with two holes, of which one is not in every variation, and nothing else tells two of these apart. */
+  const block = {
+    scad: `difference() {
+  // block
+  cube([40, 20, 10]);
+  // hole
+  translate([10, 10, -1]) cylinder(d = 6, h = 12);
+  // slot
+  translate([25, 5, -1]) cube([10, 10, 12]);
+}
+// lid
+translate([0, 0, 10]) cube([40, 20, 2]);
+`,
+    variations: {
+      format: 'parsel/variations',
+      version: 1,
+      variations: [{ name: 'full' }, { name: 'without hole', absent: ['hole'] }, { name: 'open', absent: ['lid'] }],
+    },
+  };
+
+  it('optional parts that only cut are there or not: shown, undone, kept as variation, saved, and written', async () => {
+    const { session, family, model, cad } = await openProgram(core, module, 'block', block);
+    const groups = family().found.family.optional.map(({ parts }) => parts);
+    expect(groups).toEqual(expect.arrayContaining([['hole'], ['lid']]));
+    const gone = () => [...absentIds(session.document.value)].sort();
+    const pressed = () => [null, 0, 1, 2].filter((variation) => session.family.isShown(variation));
+    expect(pressed()).toEqual([null, 0]);
+    session.family.setThere(['hole'], false);
+    expect(gone()).toEqual(['hole']);
+    expect([...session.document.value.hidden]).toEqual([]);
+    expect(pressed()).toEqual([1]); // no slider tells them apart
+    session.undo();
+    expect(gone()).toEqual([]);
+    session.redo();
+    session.family.setThere(['lid'], false);
+    expect(gone()).toEqual(['hole', 'lid']);
+    expect(pressed()).toEqual([]);
+    session.family.showVariation(2);
+    expect(gone()).toEqual(['lid']);
+    session.family.showVariation(1);
+    expect(gone()).toEqual(['hole']);
+
+    const read = readSaved(JSON.parse(JSON.stringify(save(session.document.value))));
+    if (!read.ok) throw new Error(read.text);
+    expect(read.lost).toEqual([]);
+    const source = await familyOf(core, model, read.saved.family, options);
+    const again = withFamily({ ...emptyDocument, model }, source, read.saved.family, session.newEntry);
+    expect([...absentIds(again)]).toEqual(['hole']);
+    const other = { ...read.saved.family, sliders: 0, choices: [], without: ['hole', 'block', 'no such part'] };
+    expect(withFamily({ ...emptyDocument, model }, source, other, session.newEntry).family?.without).toEqual(['hole']);
+
+    expect(await session.family.keepVariation(core, 'mine')).toBe(true);
+    expect(family().found.family.variations.at(-1)).toMatchObject({ name: 'mine', absent: ['hole'] });
+    expect(gone()).toEqual(['hole']); // as it stood
+    const about = { cad: cad.program, variations: family().variations, choices: {} };
+    const { scad } = await core.familyText({
+      ...about,
+      setting: [...session.family.settingNow(family())],
+      with: family().found.family.optional.map(({ parts }) => areThere(session.document.value, parts)),
+    });
+    expect(scad).toMatch(/^\w*hole\w* = false;/m);
+  });
+
   it('is saved and opened again: values, choices, own variations; edits behind the sliders stay edits', async () => {
     const { session, family, model, cad } = await opened('chair');
     session.addProgram(moving('seat'), 'lift the seat');
@@ -175,15 +248,10 @@ describe('the family of a program', () => {
     const read = readSaved(JSON.parse(JSON.stringify(save(session.document.value))));
     if (!read.ok) throw new Error(read.text);
     expect(read.saved.family?.variations).toBeUndefined(); // they come with the program
-    const source = await familyOf(core, model.files, read.saved.family, options);
+    const source = await familyOf(core, model, read.saved.family, options);
     const other = createSession();
     const layers = read.saved.program.layers.map((layer) => other.newEntry(layer as never, layer.parameter.value));
-    const document = withFamily(
-      { ...emptyDocument, model, layers },
-      source,
-      read.saved.family?.sliders ?? 0,
-      other.newEntry,
-    );
+    const document = withFamily({ ...emptyDocument, model, layers }, source, read.saved.family, other.newEntry);
     other.replaceDocument(document, 'open');
     close(other.family.settingNow(document.family as FamilyState), session.family.settingNow(family()));
     expect(editsOf(document).map(({ layer }) => layer.request)).toEqual(
@@ -191,7 +259,7 @@ describe('the family of a program', () => {
     );
     expect(document.family?.choices).toEqual(family().choices);
 
-    const damaged = await familyOf(core, model.files, { sliders: 1, choices: [['no such', 'off']] }, options);
+    const damaged = await familyOf(core, model, { sliders: 1, choices: [['no such', 'off']] }, options);
     expect(damaged?.choices).toEqual({});
   });
 

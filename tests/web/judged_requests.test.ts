@@ -62,6 +62,17 @@ describe('predicates', () => {
     expect(judge({ group: 'leg', to: 1 }, table(), three).ok).toBe(true);
   });
 
+  it('of mirror images and of what touches tell both ways', () => {
+    const legs = ['leg_left', 'leg_right'];
+    expect(ok({ mirror: 'x', pair: legs, holds: true }, table(2))).toBe(true);
+    expect(ok({ mirror: 'x', pair: legs, holds: true }, table(1, 0.5))).toBe(false);
+    expect(ok({ mirror: 'x', pair: legs, holds: false }, table(1, 0.5))).toBe(true);
+    expect(ok({ touching: true, pair: ['top', 'leg_left'] }, table(1, 0.5))).toBe(true);
+    expect(ok({ touching: true, pair: legs }, table())).toBe(true); // as far apart as before is no gap
+    const apart = new Map([...table(), ['node:0', box('top', [-1, 1.3, -0.5], [1, 1.4, 0.5])]]);
+    expect(ok({ touching: false, pair: ['top', 'leg_left'] }, apart)).toBe(true);
+  });
+
   it('take a change of a thin part by its share of it', () => {
     const thicker = new Map([...table(), ['node:0', box('top', [-1, 1, -0.5], [1, 1.107, 0.5])]]);
     const predicate = { part: 'top', measure: 'size_y', change: 'increase' };

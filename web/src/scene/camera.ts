@@ -31,13 +31,19 @@ export type CameraPose = readonly [number, number, number, number, number, numbe
 /** How fast the camera follows, seconds: what a person asks for, and what it does by itself. */
 const quick = 0.18;
 const gentle = 0.4;
+/** CSS pixels that stay for the model, however much is covered. */
+const leastFree = 80;
 
 export class CameraRig {
   readonly camera = new three.PerspectiveCamera(30, 1, 0.02, 60);
   readonly #controls: CameraControls;
   #insets: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
+  /** How far the middle of the picture stands off that of the canvas, CSS pixels. */
+  readonly #shift = { x: 0, y: 0 };
   #width = 1;
   #height = 1;
+  /** Drawn since something was put there at once. */
+  #frames = 0;
   /** Where the camera was put to see the whole; null when it shall stay where it is. */
   #framed: { readonly target: three.Vector3; readonly distance: number } | null = null;
 
@@ -61,7 +67,9 @@ export class CameraRig {
 
   /** Moves along; answers whether the camera is still moving. */
   update(seconds: number): boolean {
-    return this.#controls.update(seconds);
+    const shifts = this.#ease(seconds);
+    this.#frames++;
+    return this.#controls.update(seconds) || shifts;
   }
 
   /** Called whenever something makes the camera move, so that frames are drawn. */
@@ -80,17 +88,9 @@ export class CameraRig {
     this.#width = Math.max(1, width);
     this.#height = Math.max(1, height);
     this.#insets = insets;
-    const { left, right, top, bottom } = insets;
     this.camera.aspect = this.#width / this.#height;
-    this.camera.setViewOffset(
-      this.#width,
-      this.#height,
-      (right - left) / 2,
-      (bottom - top) / 2,
-      this.#width,
-      this.#height,
-    );
-    this.camera.updateProjectionMatrix();
+    if (this.#isNew) Object.assign(this.#shift, this.#wantedShift());
+    this.#applyShift();
   }
 
   /**
@@ -98,8 +98,10 @@ export class CameraRig {
    * @param whole it is the whole model, which is kept in sight from then on (keepFramed)
    */
   fit(sphere: three.Sphere, animate: boolean, whole: boolean): void {
+    if (!animate) this.#frames = 0;
     const [x, y] = this.#slopes();
-    this.#moveTo(sphere.center, (1.04 * sphere.radius) / Math.sin(Math.atan(Math.min(x, y))), animate, quick);
+    const distance = (1.04 * sphere.radius) / Math.sin(Math.atan(Math.min(x, y)));
+    this.#moveTo(sphere.center, distance, animate && !this.#isNew, quick);
     if (!whole) this.#framed = null;
   }
 
@@ -152,11 +154,45 @@ export class CameraRig {
     };
   }
 
+  /** Where the middle of the free part of the canvas is, from that of the canvas. */
+  #wantedShift(): { x: number; y: number } {
+    const { left, right, top, bottom } = this.#insets;
+    return { x: (left - right) / 2, y: (top - Math.min(bottom, this.#height - top - leastFree)) / 2 };
+  }
+
+  /** What comes onto the stage stands still: panels that come with it are known once the first frame is drawn. */
+  get #isNew(): boolean {
+    return this.#frames < 2;
+  }
+
+  /** Panels come and go at once; what is seen between them moves there. Answers whether it is still moving. */
+  #ease(seconds: number): boolean {
+    const shift = this.#shift;
+    const wanted = this.#wantedShift();
+    if (shift.x === wanted.x && shift.y === wanted.y) return false;
+    const rest = this.reducedMotion || this.#isNew ? 0 : Math.exp((-2 * seconds) / quick);
+    for (const axis of ['x', 'y'] as const) {
+      const off = (shift[axis] - wanted[axis]) * rest;
+      shift[axis] = wanted[axis] + (Math.abs(off) < 0.25 ? 0 : off);
+    }
+    this.#applyShift();
+    return shift.x !== wanted.x || shift.y !== wanted.y;
+  }
+
+  #applyShift(): void {
+    const { x, y } = this.#shift;
+    this.camera.setViewOffset(this.#width, this.#height, -x, -y, this.#width, this.#height);
+    this.camera.updateProjectionMatrix();
+  }
+
   /** Tangents of the angles between the line of sight and the sides of the free part of the canvas, across and up. */
   #slopes(): [x: number, y: number] {
     const { left, right, top, bottom } = this.#insets;
     const half = Math.tan(three.MathUtils.degToRad(this.camera.fov / 2)) / this.#height; // `fov` spans the height
-    return [half * Math.max(80, this.#width - left - right), half * Math.max(80, this.#height - top - bottom)];
+    return [
+      half * Math.max(leastFree, this.#width - left - right),
+      half * Math.max(leastFree, this.#height - top - bottom),
+    ];
   }
 
   look(view: StandardView, animate: boolean): void {

@@ -36,6 +36,8 @@ export interface CadSource {
   readonly parts: readonly CadPart[];
   /** What was not read as it was meant, in sentences. */
   readonly remarks: readonly string[];
+  /** It stands for the hexahedra of a file that no program made: ids are partKey(). */
+  readonly of?: 'hexahedra';
 }
 
 export interface CadPart {

@@ -4,6 +4,7 @@ import { m, type Sentence, t } from '../texts/texts';
 const said: Readonly<Record<string, Sentence>> = {
   'reading the model': m`reading the model`,
   'looking for what hangs together': m`looking for what hangs together`,
+  'looking for creases': m`looking for creases`,
   'writing the parts': m`writing the parts`,
   'looking for a way that keeps more': m`looking for a way that keeps more`,
   'finding the range and proving the relations': m`finding the range and proving the relations`,

@@ -3,6 +3,7 @@ import { byThemselves } from '../program/rest';
 import type { Layer, LocalTriple, Program, Shape, Statement } from '../program/types';
 import type { ModelFiles } from '../scene/load';
 import type { FamilyState } from './family_found';
+import { oncePerShape } from './once_per_shape';
 import type { Trace } from './trace';
 
 /** Where a model came from: what a link can name. */
@@ -102,7 +103,7 @@ export interface Document {
   readonly presets?: readonly Preset[];
   /** Sides are said from where a person looks; absent: they are the object's own. */
   readonly sides?: 'seen';
-  /** Of a CAD program: its family, whose sliders are layers like any others. */
+  /** Of a CAD program, or of kept variations: its family, whose sliders are layers like any others. */
   readonly family?: FamilyState;
 }
 
@@ -155,6 +156,8 @@ export function withFreshParameters(layers: readonly Layer[], taken: ReadonlySet
 export const partNames = (document: Document): string[] =>
   (document.model?.shape.parts ?? []).map(({ id, name }) => document.names.get(id) ?? name);
 
-export function nameOf(document: Document, id: string): string {
-  return document.names.get(id) ?? document.model?.shape.parts.find((part) => part.id === id)?.name ?? id;
+const ownNames = oncePerShape(({ parts }) => new Map(parts.map(({ id, name }) => [id, name])));
+
+export function nameOf({ names, model }: Document, id: string): string {
+  return names.get(id) ?? (model === null ? undefined : ownNames(model.shape).get(id)) ?? id;
 }

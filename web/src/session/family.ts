@@ -1,15 +1,18 @@
-// What can be done to the family of a CAD program: moving its sliders one by one or as a mixture, choosing what its
+// What can be done to the family of a CAD program, or of a model of boxes: moving its sliders one by one or as a mixture, choosing what its
 // variations share, keeping a variation. Each is one step of the history.
 
 import { batch, type Signal, signal } from '@preact/signals';
 import { parseJson } from '../program/json';
-import { errorMessage } from '../program/types';
-import type { CadSource, ModelFiles } from '../scene/load';
+import { errorMessage, type Shape } from '../program/types';
+import type { CadSource } from '../scene/load';
 import { plural, t } from '../texts/texts';
-import type { Document, LayerEntry } from './document';
+import { type BoundsRead, boxesOf, boxProgram, inFrame } from './box_family';
+import { type Document, type LayerEntry, nameOf, type OpenModel } from './document';
 import { activeLayers, type Evaluation } from './evaluation';
 import type { Choice, Choices, FamilySource, FamilyState, NamedVariation, Variations } from './family_found';
 import {
+  absentIds,
+  areThere,
   baseOf,
   editsOf,
   familyLayers,
@@ -20,7 +23,9 @@ import {
   type Setting,
   settingOf,
   shapeIds,
+  stillOptional,
   valueAt,
+  withOptional,
 } from './family_state';
 import { FileError, type FoundFiles } from './files';
 import type { History } from './history';
@@ -29,6 +34,12 @@ import type { ModelCore } from './model_core';
 import type { RunOptions, Tasks } from './tasks';
 
 const none: Choices = {};
+
+/** Which optional parts a variation has; null: the program itself, which has all. */
+const hasIn = ({ found }: FamilySource, variation: number | null) => {
+  const absent = variation === null ? [] : (found.family.variations[variation]?.absent ?? []);
+  return (parts: readonly string[]) => !parts.some((id) => absent.includes(id));
+};
 
 /** A program among files, as what it makes; other files as they are. Rejects with what the core refuses, by its line. */
 export async function withProgramRead(core: ModelCore, files: FoundFiles, options: RunOptions): Promise<FoundFiles> {
@@ -50,25 +61,50 @@ function variationsIn(bytes: Uint8Array): unknown {
   return read.value;
 }
 
-/** The family of a model that came of a program, with what saved work says of it; null for other models. */
+/** What parts are called that nobody has renamed. */
+const nameIn = (shape: Shape) => (id: string) => shape.parts.find((part) => part.id === id)?.name ?? id;
+
+/** What the variations of a program, or of the boxes of a shape, share. */
+async function findFamily(
+  core: ModelCore,
+  base: CadSource,
+  shape: Shape,
+  variations: Variations,
+  choices: Choices,
+  options: Pick<RunOptions, 'signal'>,
+): Promise<FamilySource> {
+  const { found, pictures } = await core.findFamily({ cad: base.program, variations, choices }, options);
+  return {
+    base,
+    found: base.of === 'hexahedra' ? inFrame(found, shape.frame) : found,
+    pictures,
+    variations,
+    choices,
+  };
+}
+
+/**
+ * The family of a model that came of a program, with what saved work says of it; of another model, that of the variations
+ * that saved work has of it, else null.
+ */
 export async function familyOf(
   core: ModelCore,
-  { cad }: ModelFiles,
+  { files: { cad }, shape }: Pick<OpenModel, 'files' | 'shape'>,
   saved: SavedFamily | undefined,
   options: RunOptions,
 ): Promise<FamilySource | null> {
-  if (cad === undefined) return null;
-  const find = async (variations: unknown, choices: Choices): Promise<FamilySource> => ({
-    ...(await core.findFamily({ cad: cad.program, variations, choices }, options)),
-    variations: variations as Variations,
-    choices,
-  });
-  if (saved === undefined) return find(cad.variations, none);
+  const own =
+    cad === undefined ? null : () => findFamily(core, cad, shape, cad.variations as Variations, none, options);
+  if (saved === undefined) return own?.() ?? null;
+  const boxes = cad === undefined && saved.variations !== undefined ? boxProgram(shape, nameIn(shape)) : null;
+  const base = cad ?? (boxes?.ok ? boxes.base : null);
+  if (base === null) return null;
   try {
-    return await find(saved.variations ?? cad.variations, Object.fromEntries(saved.choices));
+    const variations = (saved.variations ?? base.variations) as Variations;
+    return await findFamily(core, base, shape, variations, Object.fromEntries(saved.choices), options);
   } catch {
     options.signal.throwIfAborted();
-    return find(cad.variations, none); // of another version, or made up
+    return own?.() ?? null; // of another version, or made up
   }
 }
 
@@ -77,15 +113,23 @@ export interface FamilyActions {
   readonly mixing: Signal<readonly number[] | null>;
   /** Where the sliders stand, ahead of the document while they are dragged. */
   settingNow(family: FamilyState): Setting;
-  /** Whether the sliders stand at a setting, as far as they go: a variation may lack what one of them moves. */
-  isAt(family: FamilyState, setting: Setting): boolean;
+  /**
+   * Whether what stands there is a variation, or (null) the program itself: its optional parts, and its setting of the
+   * sliders as far as they go, since a variation may lack what one of them moves.
+   */
+  isShown(variation: number | null): boolean;
   /** Mixes a variation in by another weight, by as much as the sliders then move. Kept when `settle` says so. */
   mix(variation: number, weight: number, settle: boolean): void;
+  /** Whether optional parts, which are absent together, are there. */
+  setThere(parts: readonly string[], there: boolean): void;
   /** Puts everything where a variation, or (null) the program itself, has it. */
   showVariation(variation: number | null): void;
   /** Chooses what is shared against the evidence; null: as the variations say. */
   choose(core: ModelCore, changes: ReadonlyMap<string, Choice | null>): Promise<void>;
-  /** Makes a variation of what is shown. False, and a sentence, when that cannot be. */
+  /**
+   * Makes a variation of what is shown, with what edits beside the family do where the parts are boxes along the axes, which
+   * any model may have. False, and a sentence, when that cannot be.
+   */
   keepVariation(core: ModelCore, name: string): Promise<boolean>;
   /** Adds variations in one step; those of the same names give way. False, and a sentence, when that cannot be. */
   addVariations(core: ModelCore, added: readonly NamedVariation[]): Promise<boolean>;
@@ -94,7 +138,7 @@ export interface FamilyActions {
 
 export function createFamily(
   history: History<Document>,
-  { slide, sliderValue }: Evaluation,
+  { compiled, slide, sliderValue }: Evaluation,
   { newEntry }: Pick<Layers, 'newEntry'>,
   { run, say }: Tasks,
 ): FamilyActions {
@@ -110,12 +154,18 @@ export function createFamily(
     });
   const settingNow = (family: FamilyState) => read(family, sliderValue);
 
-  const isAt = (family: FamilyState, setting: Setting) =>
-    family.keys.every((key, k) => {
+  function isShown(variation: number | null): boolean {
+    const { family } = document.value;
+    if (family === undefined) return false;
+    const setting = variation === null ? baseOf(family) : settingOf(family, variation);
+    const isAt = family.keys.every((key, k) => {
       const entry = entryOf(key);
       if (entry === undefined) return false;
       return Math.abs(sliderValue(entry) - clamp(entry, valueAt(family, k, setting[k] ?? 0))) < 1e-6;
     });
+    const has = hasIn(family, variation);
+    return isAt && family.found.family.optional.every(({ parts }) => areThere(document.value, parts) === has(parts));
+  }
 
   /** Layers with the family's sliders at a setting. */
   function layersAt(family: FamilyState, setting: Setting): readonly LayerEntry[] {
@@ -147,63 +197,79 @@ export function createFamily(
   }
 
   function showVariation(variation: number | null): void {
-    const { family, model, hidden } = document.peek();
-    if (family === undefined || model?.files.cad === undefined) return;
-    const shown = variation === null ? null : family.found.family.variations[variation];
-    const ids = shapeIds(model.files.cad, model.shape);
-    const absent = new Set(hidden);
-    for (const { parts } of family.found.family.optional) {
-      for (const part of parts) {
-        const id = ids.get(part);
-        if (id === undefined) continue;
-        if (shown?.absent.includes(part)) absent.add(id);
-        else absent.delete(id);
-      }
-    }
+    const { family, model } = document.peek();
+    if (family === undefined || model === null) return;
     const setting = variation === null ? baseOf(family) : settingOf(family, variation);
     const weights = family.weights.map((_, i) => (i === variation ? 1 : 0));
-    history.push(t`show “${shown?.name ?? model.shape.name}”`, {
-      ...document.peek(),
-      layers: layersAt(family, setting),
-      hidden: absent,
-      family: { ...family, weights },
-    });
+    const name = variation === null ? model.shape.name : family.found.family.variations[variation]?.name;
+    const next = { ...document.peek(), layers: layersAt(family, setting), family: { ...family, weights } };
+    history.push(t`show “${name ?? ''}”`, withOptional(next, hasIn(family, variation)));
   }
 
-  /** The family anew, with the sliders as near as they can be to where they stood. */
-  async function find(core: ModelCore, variations: Variations, choices: Choices, label: string): Promise<boolean> {
+  function setThere(parts: readonly string[], there: boolean): void {
+    const now = document.peek();
+    const isThose = (group: readonly string[]) => group.some((id) => parts.includes(id));
+    const next = withOptional(now, (group) => (isThose(group) ? there : areThere(now, group)));
+    history.push(there ? t`show@step` : t`hide@step`, next);
+  }
+
+  /**
+   * The family anew, with the sliders as near as they can be to where they stood, or where the variation `shown` has them,
+   * which is what the edits beside them made: these go back to 0.
+   */
+  async function find(
+    core: ModelCore,
+    base: CadSource,
+    variations: Variations,
+    choices: Choices,
+    label: string,
+    shown?: string,
+  ): Promise<boolean> {
     const { model, family: asked } = document.peek();
-    const cad = model?.files.cad;
-    if (model === null || cad === undefined || asked === undefined) return false;
-    const answer = await run(t`Looking for what they share`, (options) =>
-      core.findFamily({ cad: cad.program, variations, choices }, options),
+    if (model === null) return false;
+    const source = await run(t`Looking for what they share`, (options) =>
+      findFamily(core, base, model.shape, variations, choices, options),
     );
     const { family } = document.peek();
-    if (answer === null || family !== asked || document.peek().model !== model) return false;
-    const source: FamilySource = { ...answer, variations, choices };
-    const edits = editsOf(document.peek());
-    const values = parametersAt(family, settingNow(family));
+    if (source === null || family !== asked || document.peek().model !== model) return false;
+    const found = source.found.family;
+    const names = found.variations.map(({ name }) => name);
+    const index = shown === undefined ? -1 : names.indexOf(shown);
+    const edits = editsOf(document.peek()).map((entry) => (index < 0 ? entry : { ...entry, value: 0 }));
+    const values = family === undefined ? {} : parametersAt(family, settingNow(family));
+    const setting =
+      index < 0 ? found.sliders.map(({ parameter, value }) => values[parameter] ?? value) : settingOf(source, index);
     const taken = new Set(edits.map(({ layer }) => layer.parameter.name));
     const entries = familyLayers(source, model.shape, taken).map((layer, k) => {
-      const { parameter = '', value = 0 } = source.found.family.sliders[k] ?? {};
       const entry = newEntry(layer);
-      return { ...entry, value: clamp(entry, valueAt(source, k, values[parameter] ?? value)) };
+      return { ...entry, value: clamp(entry, valueAt(source, k, setting[k] ?? 0)) };
     });
-    const names = family.found.family.variations.map(({ name }) => name);
-    const weights = source.found.family.variations.map(({ name }) => family.weights[names.indexOf(name)] ?? 0);
+    const before = family?.found.family.variations.map(({ name }) => name) ?? [];
+    const weights = names.map((name, i) =>
+      index < 0 ? (family?.weights[before.indexOf(name)] ?? 0) : Number(i === index),
+    );
     history.push(label, {
       ...document.peek(),
       layers: [...entries, ...edits],
-      family: { ...source, weights, keys: entries.map(({ key }) => key) },
+      family: {
+        ...source,
+        weights,
+        without: stillOptional(source, family?.without ?? []),
+        keys: entries.map(({ key }) => key),
+      },
     });
-    const [before, after] = [family.keys.length, entries.length];
-    const sliders = plural(after, '{n} slider', '{n} sliders');
+    const sliders = plural(entries.length, '{n} slider', '{n} sliders');
+    if (family === undefined) say(t`What “${shown ?? ''}” shares with the model leaves ${sliders}.`);
+    else sayChange(family.keys.length, entries.length, sliders);
+    return true;
+  }
+
+  function sayChange(before: number, after: number, sliders: string): void {
     say(
       before === after
         ? t`${sliders}, as before: the rest of what they share implies it.`
         : t`${sliders}, ${before} before.`,
     );
-    return true;
   }
 
   async function choose(core: ModelCore, changes: ReadonlyMap<string, Choice | null>): Promise<void> {
@@ -213,26 +279,57 @@ export function createFamily(
     for (const [id, choice] of changes)
       if (choice === null) delete choices[id];
       else choices[id] = choice;
-    await find(core, family.variations, choices, t`choose what they share`);
+    await find(core, family.base, family.variations, choices, t`choose what they share`);
   }
 
   async function keepVariation(core: ModelCore, name: string): Promise<boolean> {
     const { family, model, hidden } = document.peek();
-    if (family === undefined || model?.files.cad === undefined) return false;
-    const moved = activeLayers(document.peek()).some(({ key, value }) => !family.keys.includes(key) && value !== 0);
-    if (moved) {
+    if (model === null) return false;
+    const moved = activeLayers(document.peek()).some(({ key, value }) => !family?.keys.includes(key) && value !== 0);
+    if (moved && family !== undefined && family.base.of !== 'hexahedra') {
       say(t`A variation is made of the sliders of the family alone: put the edits beside it back to 0 first.`, 'error');
       return false;
     }
-    const ids = shapeIds(model.files.cad, model.shape);
-    const absent = model.files.cad.parts.flatMap(({ id }) => (hidden.has(ids.get(id) ?? '') ? [id] : []));
-    const kept = {
-      name,
-      source: 'hand',
-      values: parametersAt(family, settingNow(family)),
-      absent,
-    };
-    return addVariations(core, [kept]);
+    const first = family === undefined ? boxProgram(model.shape, (id) => nameOf(document.peek(), id)) : null;
+    const base = family?.base ?? (first?.ok ? first.base : null);
+    if (base === null) {
+      if (first?.ok === false) say(first.text, 'error');
+      return false;
+    }
+    const ids = shapeIds(base, model.shape);
+    const left = absentIds(document.peek());
+    const isAbsent = (id: string) => left.has(id) || hidden.has(ids.get(id) ?? '');
+    const absent = base.parts.flatMap(({ id }) => (isAbsent(id) ? [id] : []));
+    if (family !== undefined && !moved) {
+      const values = parametersAt(family, settingNow(family));
+      return addVariations(core, [{ name, source: 'hand', values, absent } as NamedVariation]);
+    }
+    const boxes = boxesNow(model);
+    if (!boxes.ok) {
+      say(boxes.text, 'error');
+      return false;
+    }
+    const kept = { name, source: 'edit', bounds: Object.fromEntries(boxes.bounds), absent };
+    const others = (family?.variations?.variations ?? []).filter((other) => other.name !== name);
+    const variations = { format: 'parsel/variations', version: 1, variations: [...others, kept] };
+    return find(core, base, variations, family?.choices ?? none, t`keep “${name}”`, name);
+  }
+
+  /** The boxes of the parts where all sliders stand; refused where there are others, or more, than at rest. */
+  function boxesNow({ shape }: OpenModel): BoundsRead {
+    const named = (id: string) => nameOf(document.peek(), id);
+    const state = compiled.peek();
+    if (state.kind === 'refused') return { ok: false, text: state.text };
+    if (state.kind === 'none') return boxesOf(shape, [], named);
+    const { groups, corners } = state.evaluator;
+    const changed = groups.find((group) => group !== null && group.count !== group.relation.parts.length);
+    if (changed) {
+      return {
+        ok: false,
+        text: t`A variation has as many parts as the model: put the number of “${named(changed.relation.parent)}” back first.`,
+      };
+    }
+    return boxesOf(shape, corners, named);
   }
 
   async function addVariations(core: ModelCore, added: readonly NamedVariation[]): Promise<boolean> {
@@ -243,16 +340,34 @@ export function createFamily(
     const others = (family.variations?.variations ?? []).filter(({ name }) => !names.has(name));
     const variations = { format: 'parsel/variations', version: 1, variations: [...others, ...added] };
     const label = added.length === 1 ? t`keep “${first.name}”` : t`keep ${added.length} kinds`;
-    return find(core, variations, family.choices, label);
+    return find(core, family.base, variations, family.choices, label);
   }
 
   async function removeVariation(core: ModelCore, variation: number): Promise<void> {
     const { family } = document.peek();
     const list = family?.variations?.variations;
     if (family === undefined || list === undefined) return;
+    const label = t`remove “${list[variation]?.name ?? ''}”`;
+    if (list.length === 1 && family.base.of === 'hexahedra') {
+      // There is nothing but the model then, and no family.
+      const { family: _, ...rest } = document.peek();
+      history.push(label, { ...rest, layers: editsOf(document.peek()) });
+      return;
+    }
     const variations = { ...family.variations, variations: list.filter((_, i) => i !== variation) };
-    await find(core, variations, family.choices, t`remove “${list[variation]?.name ?? ''}”`);
+    await find(core, family.base, variations, family.choices, label);
   }
 
-  return { mixing, settingNow, isAt, mix, showVariation, choose, keepVariation, addVariations, removeVariation };
+  return {
+    mixing,
+    settingNow,
+    isShown,
+    mix,
+    setThere,
+    showVariation,
+    choose,
+    keepVariation,
+    addVariations,
+    removeVariation,
+  };
 }

@@ -1,4 +1,5 @@
-// The family of a CAD program: what the core found, and what a person chose of it.
+// The family of a CAD program, or of a model of boxes: what the core found, and what a person chose of it.
+import type { CadSource } from '../scene/load';
 import type { MethodResult } from '../worker/protocol';
 
 export type FoundFamily = MethodResult<'find_family'>;
@@ -16,6 +17,8 @@ export type Variations = { readonly variations: readonly NamedVariation[] } | nu
 
 /** What the core found for a program, its variations and what was chosen. */
 export interface FamilySource {
+  /** The program, or what stands for one: box_family.ts. */
+  readonly base: CadSource;
   readonly found: FoundFamily;
   /** A GLB of each variation. */
   readonly pictures: readonly Uint8Array[];
@@ -28,4 +31,6 @@ export interface FamilyState extends FamilySource {
   readonly keys: readonly number[];
   /** How much of each variation is mixed in, 0 … 1. */
   readonly weights: readonly number[];
+  /** Optional parts that are left out and were never drawn, so that nothing is hidden for them: those that only cut. By id of the program. */
+  readonly without: readonly string[];
 }

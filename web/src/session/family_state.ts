@@ -1,8 +1,8 @@
-// The family of a CAD program as a part of the work, and the arithmetic of its sliders: settings, stops, mixtures. All
+// The family of a CAD program, or of a model of boxes, as a part of the work, and the arithmetic of its sliders: settings, stops, mixtures. All
 // lengths are in the program's own unit.
 import type { Layer, Program, Shape } from '../program/types';
 import type { CadSource } from '../scene/load';
-import { type Document, type LayerEntry, withFreshParameters } from './document';
+import { type Document, type LayerEntry, partKey, withFreshParameters } from './document';
 import type { Choice, FamilySource } from './family_found';
 
 /** One value a slider. */
@@ -91,14 +91,19 @@ function fraction(text: string): number {
 
 /** Ids of the shape by ids of the program: node i of the file is the i-th part that adds material. */
 export function shapeIds(cad: CadSource, shape: Shape): ReadonlyMap<string, string> {
+  if (cad.of === 'hexahedra') {
+    return new Map(shape.parts.flatMap((part) => (part.virtual ? [] : [[partKey(part), part.id]])));
+  }
   const byNode = new Map(shape.parts.filter(({ virtual }) => !virtual).map(({ node, id }) => [node, id]));
   const drawn = cad.parts.filter(({ role }) => role === 'add');
   return new Map(drawn.flatMap(({ id }, node) => (byNode.has(node) ? [[id, byNode.get(node) as string]] : [])));
 }
 
 /** The layers of a family's program, in the words of the shape. */
-export function familyLayers({ found }: FamilySource, shape: Shape, taken: ReadonlySet<string>): Layer[] {
-  const byNode = new Map(shape.parts.filter(({ virtual }) => !virtual).map(({ node, id }) => [`node:${node}`, id]));
+export function familyLayers({ base, found }: FamilySource, shape: Shape, taken: ReadonlySet<string>): Layer[] {
+  const ids = shapeIds(base, shape);
+  const drawn = base.parts.filter(({ role }) => role === 'add');
+  const byNode = new Map(drawn.map(({ id }, node) => [`node:${node}`, ids.get(id)]));
   const { layers } = found.program as unknown as Program;
   return withFreshParameters(layers, taken).map((layer) => ({
     ...layer,
@@ -114,16 +119,17 @@ export interface SavedFamily {
   readonly choices: readonly (readonly [string, Choice])[];
   /** Absent: those that come with the program. */
   readonly variations?: unknown;
+  readonly without?: readonly string[];
 }
 
 /**
  * A document with a family's sliders, before its edits. Layers of saved work that are these sliders are taken for them.
- * @param saved sliders among the document's first layers, 0 for none
+ * @param saved what was kept of it: its sliders are among the document's first layers
  */
 export function withFamily(
   document: Document,
   source: FamilySource | null,
-  saved: number,
+  saved: SavedFamily | undefined,
   newEntry: (layer: Layer) => LayerEntry,
 ): Document {
   const shape = document.model?.shape;
@@ -131,34 +137,68 @@ export function withFamily(
   const { sliders } = source.found.family;
   const weights = source.found.family.variations.map(() => 0);
   const first = document.layers.slice(0, sliders.length);
-  const isHere = saved === sliders.length && first.every(({ layer }, k) => layer.request === sliders[k]?.name);
-  if (isHere) return { ...document, family: { ...source, weights, keys: first.map(({ key }) => key) } };
+  const without = stillOptional(source, saved?.without ?? []);
+  const own = familyLayers(source, shape, new Set());
+  const isHere = saved?.sliders === sliders.length && first.every(({ layer }, k) => isSameSlider(layer, own[k]));
+  if (isHere) return { ...document, family: { ...source, weights, without, keys: first.map(({ key }) => key) } };
   const taken = new Set(document.layers.map(({ layer }) => layer.parameter.name));
   const entries = familyLayers(source, shape, taken).map((layer) => newEntry(layer));
   return {
     ...document,
     layers: [...entries, ...document.layers],
-    family: { ...source, weights, keys: entries.map(({ key }) => key) },
+    family: { ...source, weights, without, keys: entries.map(({ key }) => key) },
   };
+}
+
+/** Whether a layer is a slider of the family: by its name, or, where its parts go by other names now, by what it moves. */
+function isSameSlider(layer: Layer, slider: Layer | undefined): boolean {
+  if (slider === undefined) return false;
+  const moved = ({ statements }: Layer) =>
+    statements.map((statement) => ('feature' in statement ? `${statement.part} ${statement.feature.join(' ')}` : ''));
+  return layer.request === slider.request || moved(layer).join('; ') === moved(slider).join('; ');
 }
 
 /** Parts that the variation on the stage lacks, by id of the shape: optional ones that are hidden. */
 export function absentParts({ family, model, hidden }: Document): ReadonlySet<string> {
-  const cad = model?.files.cad;
-  if (family === undefined || cad === undefined || model === null) return new Set();
-  const ids = shapeIds(cad, model.shape);
+  if (family === undefined || model === null) return new Set();
+  const ids = shapeIds(family.base, model.shape);
   const optional = family.found.family.optional.flatMap(({ parts }) => parts.map((id) => ids.get(id) ?? ''));
   return new Set(optional.filter((id) => hidden.has(id)));
 }
 
-/** The same by id of the program, with parts that only cut: they go with what they are absent with. */
-export function absentIds(document: Document): ReadonlySet<string> {
+/** Of parts that were left out, those that not all variations have. */
+export const stillOptional = ({ found }: FamilySource, ids: readonly string[]): readonly string[] =>
+  ids.filter((id) => found.family.optional.some(({ parts }) => parts.includes(id)));
+
+/** Whether parts that are absent together are there, by id of the program. */
+export function areThere({ family, model, hidden }: Document, parts: readonly string[]): boolean {
+  if (family === undefined || model === null) return true;
+  const ids = shapeIds(family.base, model.shape);
+  return !parts.some((id) => family.without.includes(id) || hidden.has(ids.get(id) ?? ''));
+}
+
+/** A document with its optional parts there or not: hidden, or, where they only cut, left out. */
+export function withOptional(document: Document, isThere: (parts: readonly string[]) => boolean): Document {
   const { family, model } = document;
-  const cad = model?.files.cad;
-  if (family === undefined || cad === undefined || model === null) return new Set();
-  const ids = shapeIds(cad, model.shape);
-  const hidden = absentParts(document);
-  const gone = family.found.family.optional.filter(({ parts }) => parts.some((id) => hidden.has(ids.get(id) ?? '')));
+  if (family === undefined || model === null) return document;
+  const ids = shapeIds(family.base, model.shape);
+  const hidden = new Set(document.hidden);
+  const without: string[] = [];
+  for (const { parts } of family.found.family.optional) {
+    const there = isThere(parts);
+    for (const part of parts) {
+      const id = ids.get(part);
+      if (id === undefined && !there) without.push(part);
+      else if (id !== undefined && there) hidden.delete(id);
+      else if (id !== undefined) hidden.add(id);
+    }
+  }
+  return { ...document, hidden, family: { ...family, without } };
+}
+
+/** Parts that the variation on the stage lacks, by id of the program. */
+export function absentIds(document: Document): ReadonlySet<string> {
+  const gone = document.family?.found.family.optional.filter(({ parts }) => !areThere(document, parts)) ?? [];
   return new Set(gone.flatMap(({ parts }) => parts));
 }
 
@@ -167,12 +207,13 @@ export const editsOf = ({ layers, family }: Document): readonly LayerEntry[] =>
   family === undefined ? layers : layers.filter(({ key }) => !family.keys.includes(key));
 
 /** What is kept of a family in links and files; absent where there is none. */
-export function savedFamily({ family, model }: Document): SavedFamily | undefined {
+export function savedFamily({ family }: Document): SavedFamily | undefined {
   if (family === undefined) return undefined;
-  const isOwn = family.variations === (model?.files.cad?.variations ?? null);
+  const isOwn = family.variations === family.base.variations;
   return {
     sliders: family.keys.length,
     choices: Object.entries(family.choices),
     ...(isOwn ? {} : { variations: family.variations }),
+    ...(family.without.length > 0 ? { without: family.without } : {}),
   };
 }

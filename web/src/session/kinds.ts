@@ -8,7 +8,7 @@ import { askVotes } from '../llm/votes';
 import { t } from '../texts/texts';
 import { type CadPicture, picturesOf } from './cad_pictures';
 import type { OpenModel } from './document';
-import type { FamilySource, NamedVariation, Variations } from './family_found';
+import type { NamedVariation, Variations } from './family_found';
 import type { ModelCore } from './model_core';
 import { nothingSpent, type Spent } from './propose';
 import type { Session } from './session';
@@ -133,7 +133,9 @@ export function createKinds({ session, models, sourceOf }: KindsParts): KindsAct
   }
 
   async function drawOne(core: ModelCore, model: OpenModel, name: string, source: Source, run: Run): Promise<void> {
-    const cad = model.files.cad?.program;
+    const base = model.files.cad;
+    if (base === undefined) return;
+    const cad = base.program;
     const show = (done: number, of: number) => {
       if (!run.signal.aborted) setCard(run.stop, name, { kind: 'asking', done, of });
     };
@@ -143,7 +145,8 @@ export function createKinds({ session, models, sourceOf }: KindsParts): KindsAct
       const [variation] = (read.variation?.variations ?? []) as unknown as readonly NamedVariation[];
       if (read.variation === undefined || variation === undefined) throw new Error(t`The answers hold no numbers`);
       const alone = { cad, variations: read.variation as unknown as Variations, choices: {} };
-      const family: FamilySource = { ...(await core.findFamily(alone, { signal: run.signal })), ...alone };
+      const { found, pictures } = await core.findFamily(alone, { signal: run.signal });
+      const family = { base, found, pictures, variations: alone.variations, choices: {} };
       const [, picture] = picturesOf(model.files, family);
       if (picture === undefined) throw new Error(t`The answers hold no numbers`);
       setCard(run.stop, name, {

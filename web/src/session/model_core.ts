@@ -47,6 +47,8 @@ export interface ModelCore {
   open(files: ModelFiles, options: Options, labels?: Labels, corrections?: Corrections): Promise<Shape>;
   /** The files with their parts told apart, and what was left whole, in sentences. */
   split(files: ModelFiles, how: Parameters<'split'>, options: Options): Promise<SplitFiles>;
+  /** What each way would tell apart, without doing it. */
+  splitWays(files: ModelFiles, fine: number, options: Options): Promise<MethodResult<'split_ways'>>;
   /** One layer, from a seed edit. */
   propagate(model: OpenModel, edit: EditInput, options: Options): Promise<Propagation>;
   /** The same over the part of the range where nothing comes apart; refused where that is not worth a slider. */
@@ -147,6 +149,10 @@ export function modelCore(client: Calls): ModelCore {
         parts: result.parts,
         remarks: result.warnings.map(({ place, text }) => `${place}: ${text}`),
       };
+    },
+    async splitWays(files, fine, options) {
+      const needs = stateOf({ files, labels: noLabels });
+      return (await client.call('split_ways', { fine }, { ...options, needs })).result;
     },
     async propagate(model, edit, options) {
       const { result } = await client.call('propagate', { edit }, { ...options, needs: stateOf(model) });

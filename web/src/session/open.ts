@@ -94,7 +94,7 @@ async function abstract(
       [labels, corrections] = [noLabels, noCorrections];
       shape = await core.open(files, options);
     }
-    const family = await familyOf(core, files, given?.saved.family, options);
+    const family = await familyOf(core, { files, shape }, given?.saved.family, options);
     await prepare(files);
     options.signal.throwIfAborted();
     const model = withCorrections({ files, source, shape, labels }, corrections);
@@ -111,7 +111,7 @@ const labelsOf = (work: Work | null): Labels =>
 
 function show(model: OpenModel, work: Work | null, family: FamilySource | null): boolean {
   const bare = work === null ? { ...emptyDocument, model } : documentOf(model, work.saved);
-  const next = withFamily(bare, family, work?.saved.family?.sliders ?? 0, newEntry);
+  const next = withFamily(bare, family, work?.saved.family, newEntry);
   openedView.value = work?.saved.view ?? null;
   offered.value = null;
   replaceDocument(next, t`open ${model.shape.name}`);

@@ -9,6 +9,7 @@ import { m } from '../texts/texts';
 import { carved } from './carve';
 import { carveModel } from './carving';
 import type { ModelCore } from './model_core';
+import { oncePerShape } from './once_per_shape';
 import type { RunOptions } from './tasks';
 
 /** How a model stands now. */
@@ -57,16 +58,6 @@ const boxOf = (corners: Corners): Box =>
     return [low, high] as [number, number];
   });
 
-/** What is read off a shape at rest, once. */
-function once<T>(read: (shape: Shape) => T): (shape: Shape) => T {
-  const known = new WeakMap<Shape, { readonly value: T }>();
-  return (shape) => {
-    const found = known.get(shape) ?? { value: read(shape) };
-    known.set(shape, found);
-    return found.value;
-  };
-}
-
 /** Feet are narrower than this share of the whole, across what they stand on. */
 const narrow = 0.35;
 /** … reach the ground within this share of the height … */
@@ -103,7 +94,7 @@ function feet(boxes: readonly Box[], whole: Box, up: Direction): number {
  * The direction of the model, as it stands, that seems to be up where +y does not: the one that it has feet for, and
  * mirror images do not speak against. Null where it stands well, or nobody can say.
  */
-export const seemsUp = once((shape): Direction | null => {
+export const seemsUp = oncePerShape((shape): Direction | null => {
   const real = shape.parts.filter(({ virtual }) => !virtual);
   if (real.length < 4) return null;
   const boxes = real.map(({ corners }) => boxOf(corners));
@@ -130,7 +121,7 @@ export const fileUnits = [
 ] as const;
 
 /** Along x, y and z, in metres, at rest. */
-export const extentOf = once(({ parts, frame }): [number, number, number] => {
+export const extentOf = oncePerShape(({ parts, frame }): [number, number, number] => {
   const box = boxOf(parts.filter(({ virtual }) => !virtual).flatMap(({ corners }) => corners));
   return box.map(([low, high]) => (high - low) * frame.scale) as [number, number, number];
 });

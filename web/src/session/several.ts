@@ -1,5 +1,6 @@
 // Several parts at once: which parts are like one another, and which parts stand for a selection in an edit.
 import { isGroup, isReflection, type Shape } from '../program/types';
+import { oncePerShape } from './once_per_shape';
 
 /** Real parts among some, and the instances of virtual ones; in the shape's order. */
 export function realParts(shape: Shape, ids: Iterable<string>): string[] {
@@ -8,13 +9,16 @@ export function realParts(shape: Shape, ids: Iterable<string>): string[] {
   return shape.parts.filter(({ id, virtual }) => !virtual && wanted.has(id)).map(({ id }) => id);
 }
 
-/**
- * Parts that are what this one is, itself among them: those of its label, its mirror images, the instances of its row or
- * ring, and all that are so of these. Real parts, in the shape's order.
- */
-export function alike(shape: Shape, part: string): string[] {
+interface Likeness {
+  /** Real parts that each stands for: itself, or its instances. */
+  readonly real: ReadonlyMap<string, readonly string[]>;
+  /** Parts that are alike, by what makes them so: one label, one relation. */
+  readonly kinds: ReadonlyMap<unknown, readonly string[]>;
+  readonly kindsOf: ReadonlyMap<string, readonly unknown[]>;
+}
+
+const likeness = oncePerShape((shape): Likeness => {
   const real = new Map(shape.parts.map(({ id, virtual, members }) => [id, virtual ? members : [id]] as const));
-  /** Parts that are alike: of one label, of one relation. */
   const kinds = new Map<unknown, string[]>();
   for (const { id, label, virtual } of shape.parts) {
     const same = kinds.get(label);
@@ -34,7 +38,15 @@ export function alike(shape: Shape, part: string): string[] {
       if (own === undefined) kindsOf.set(id, [kind]);
       else own.push(kind);
     }
+  return { real, kinds, kindsOf };
+});
 
+/**
+ * Parts that are what this one is, itself among them: those of its label, its mirror images, the instances of its row or
+ * ring, and all that are so of these. Real parts, in the shape's order.
+ */
+export function alike(shape: Shape, part: string): string[] {
+  const { real, kinds, kindsOf } = likeness(shape);
   const found = new Set(real.get(part) ?? []);
   const seen = new Set<unknown>();
   for (const id of found) {

@@ -37,6 +37,59 @@ export function declineSplit(): void {
   if (files) settled.value = new Set([...settled.peek(), files]);
 }
 
+/** What each way to tell the parts of a file apart gives. */
+export interface Ways {
+  readonly of: ModelFiles;
+  readonly fine: number;
+  /** Those that tell something apart, each otherwise than the one before. */
+  readonly found: readonly Way[];
+}
+export interface Way {
+  readonly by: SplitBy;
+  readonly parts: number;
+  /** More than a model may have. */
+  readonly isTooMany: boolean;
+}
+
+const looked = signal<Ways | null>(null);
+
+/**
+ * The ways that were found for the present model, whether it is split by now or not; null before anyone has asked, or when it is
+ * split otherwise fine by now.
+ */
+export const waysNow = computed(() => {
+  const files = document.value.model?.files;
+  const ways = looked.value;
+  if (ways === null || files === undefined || ways.of !== (files.split?.from ?? files)) return null;
+  return files.split === undefined || files.split.fine === ways.fine ? ways : null;
+});
+
+/** Whether the model is split as a way says: by it, or, where the best was asked for, into as many parts. */
+export function isSplitSo(now: { by: SplitBy; parts: number } | null, { by, parts }: Way): boolean {
+  if (now === null || now.parts !== parts) return false;
+  return now.by === by || (now.by === 'auto' && by !== 'materials'); // the best is never by material alone
+}
+
+/** Looks what each way to split the model would give, as fine as it is split now; a sentence where none gives anything. */
+export async function findWays(core: ModelCore): Promise<void> {
+  const { model } = document.peek();
+  if (model === null) return;
+  const of = model.files.split?.from ?? model.files;
+  const fine = model.files.split?.fine ?? splitDefaults.fine;
+  const answer = await run(t`Looking for ways to split it`, (options) => core.splitWays(of, fine, options));
+  if (answer === null || document.peek().model !== model) return;
+  const { before, ways } = answer;
+  // Creases tell what hangs together apart further: where they find nothing more, it is the same.
+  const hanging = ways.find(({ by }) => by === 'components')?.parts;
+  const found = ways
+    .filter(({ by, parts }) => parts !== before && !(by === 'regions' && parts === hanging))
+    .map(({ by, parts, too_many }) => ({ by, parts, isTooMany: too_many }));
+  looked.value = { of, fine, found };
+  if (found.length > 0) return;
+  settled.value = new Set([...settled.peek(), of]);
+  say(t`There is nothing to tell apart in this model. Select a part to cut it by hand.`);
+}
+
 const stepLabel = m`split into parts`;
 
 /**

@@ -53,6 +53,7 @@ const familySchema = v.strictObject({
   sliders: v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(limits.layers)),
   choices: v.pipe(v.array(choice), v.maxLength(limits.statements)),
   variations: v.exactOptional(v.looseObject({ format: v.literal('parsel/variations') })),
+  without: v.exactOptional(v.pipe(v.array(v.string()), v.maxLength(limits.statements))),
 });
 
 const splitSchema = v.strictObject({

@@ -2,7 +2,7 @@
 
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
-import { useEffect } from 'preact/hooks';
+import { useEffect, useLayoutEffect } from 'preact/hooks';
 import type { Insets } from '../scene/camera';
 import { cutting } from '../session/cutting';
 import { readDropped } from '../session/files';
@@ -44,6 +44,7 @@ import { RulerCard, Tools } from './Tools';
 import { TopBar } from './TopBar';
 import { Tour, TourOffer } from './Tour';
 import { welcome } from './welcome';
+import { coveredBelow, measure, useStandsBelow } from './window_bottom';
 import type { FeatureKind } from './words';
 
 const phone = matchMedia('(max-width: 720px)');
@@ -75,10 +76,13 @@ export function App() {
     tab.value = 'edits';
   }, [suggested, editsOpen, tab]);
 
+  const centre = useStandsBelow({ passing: '.status-line' });
+  useLayoutEffect(measure); // the sheet lifts them, or lets them down
   if (isEmbedded) return <Embedded />;
+  const bottom = coveredBelow.value + 8;
   const insets: Insets = isPhone.value
-    ? { left: 0, right: 0, top: 56, bottom: editsOpen.value ? Math.round(innerHeight * 0.46) + 98 : 158 }
-    : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom: 150 };
+    ? { left: 0, right: 0, top: 56, bottom }
+    : { left: partsOpen.value ? 256 : 0, right: editsOpen.value ? 352 : 0, top: 72, bottom };
   const edits = <RightPanel pickKind={pickKind} />;
   const parts = (
     <PartsPanel
@@ -112,6 +116,7 @@ export function App() {
           </>
         )}
         <div
+          ref={centre}
           class={`centre ${editsOpen.value ? '' : 'low'}`}
           style={{ paddingLeft: `${insets.left + 12}px`, paddingRight: `${insets.right + 12}px` }}
         >
@@ -213,7 +218,8 @@ function Sheet({ tab, open, children }: Foldable & { tab: { value: 'edits' | 'pa
 function Embedded() {
   const pickKind = useSignal<FeatureKind | null>(null);
   const { layers } = document.value;
-  const insets: Insets = { left: 0, right: 0, top: 0, bottom: layers.length > 0 ? 130 : 0 };
+  const cards = useStandsBelow();
+  const insets: Insets = { left: 0, right: 0, top: 0, bottom: layers.length > 0 ? coveredBelow.value + 8 : 0 };
   return (
     <div class="app embedded">
       <StageView insets={insets} pickKind={pickKind} />
@@ -222,7 +228,7 @@ function Embedded() {
         <div class="centre low">
           <StatusLine />
         </div>
-        <ul class="cards embedded-cards">
+        <ul class="cards embedded-cards" ref={cards}>
           {layers.map((entry) => (
             <LayerCard key={entry.key} entry={entry} first last plain />
           ))}

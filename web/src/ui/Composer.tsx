@@ -28,23 +28,15 @@ import { ReadingCard } from './ReadingCard';
 import { useRecorded } from './recorded';
 import { SidesLine } from './SidesSwitch';
 import { suggestSliders } from './SuggestPanel';
+import { useStandsBelow } from './window_bottom';
 
 const maxLength = 1000;
-
-const heights = new ResizeObserver(([entry]) => {
-  const height = entry?.borderBoxSize[0]?.blockSize ?? 0;
-  if (height > 0) globalThis.document.documentElement.style.setProperty('--composer-height', `${height}px`);
-});
-/** On a phone the composer lies over the end of the sheet, which must leave room for it. */
-function tellHeight(element: HTMLElement | null): void {
-  heights.disconnect();
-  if (element !== null) heights.observe(element);
-  else globalThis.document.documentElement.style.removeProperty('--composer-height');
-}
 
 /** @param picking whether clicks in the view belong to the edit by hand */
 export function Composer({ picking }: { picking: boolean }) {
   const field = useRef<HTMLTextAreaElement>(null);
+  // On a phone it lies over the end of the sheet, which leaves room for it.
+  const stands = useStandsBelow({ property: '--composer-height' });
   const isFocused = useSignal(false);
   const state = request.value;
   const isAsking = state.kind === 'asking';
@@ -62,7 +54,7 @@ export function Composer({ picking }: { picking: boolean }) {
     if (event.key !== 'Backspace') event.preventDefault();
   };
   return (
-    <section class="composer panel" aria-label={t`Request in words`} ref={tellHeight}>
+    <section class="composer panel" aria-label={t`Request in words`} ref={stands}>
       <div class="composer-said">
         {state.kind === 'understood' && state.model === document.value.model && (
           <ReadingCard key={state.answer} state={state} />

@@ -14,6 +14,7 @@ import { CardList } from './CardList';
 import { CardTools } from './CardTools';
 import { HandPanel } from './HandPanel';
 import { Icon } from './Icon';
+import { KeepEdited } from './KeepVariation';
 import { OffersPanel } from './OffersPanel';
 import { useRecorded } from './recorded';
 import { StackVerdict } from './StackVerdict';
@@ -56,6 +57,7 @@ export function EditsPanel({ pickKind }: EditsProps) {
       </ul>
       <StackVerdict />
       {layers.length > 0 && <Together />}
+      {layers.length > 0 && <KeepEdited />}
       <SuggestPanel />
       {pickKind.value === null ? (
         <>

@@ -1,14 +1,13 @@
-// The family of a CAD program: its variations as pictures, the few sliders that they leave, mixtures, parts that not all
+// The family of a CAD program, or of kept variations: its variations as pictures, the few sliders that they leave, mixtures, parts that not all
 // have, and what they have in common.
 
-import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { models } from '../session/core';
 import type { OpenModel } from '../session/document';
 import type { FamilyState } from '../session/family_found';
-import { settingOf, shapeIds } from '../session/family_state';
+import { absentIds, areThere, shapeIds } from '../session/family_state';
 import { interrupt } from '../session/play';
-import { family as actions, document, setHidden, step, task } from '../session/session';
+import { family as actions, document, step } from '../session/session';
 import { plural, t } from '../texts/texts';
 import { FamilyKinds, SuggestKinds } from './FamilyKinds';
 import { FamilyShared } from './FamilyShared';
@@ -16,25 +15,32 @@ import { FamilySlider } from './FamilySlider';
 import { exportScad, exportSets } from './family_export';
 import { drawFamily, familyPictures } from './family_pictures';
 import { Icon } from './Icon';
+import { KeepVariation } from './KeepVariation';
 import { capital } from './words';
 
 export function FamilyPanel() {
   const { model, family, hidden } = document.value;
-  const cad = model?.files.cad;
-  const ids = useMemo(() => (model && cad ? shapeIds(cad, model.shape) : new Map<string, string>()), [model, cad]);
-  if (model === null || family === undefined || cad === undefined) return null;
-  const isAbsent = (id: string) => hidden.has(ids.get(id) ?? '');
+  const base = family?.base;
+  const ids = useMemo(() => (model && base ? shapeIds(base, model.shape) : new Map<string, string>()), [model, base]);
+  if (model === null || family === undefined) return null;
+  const left = absentIds(document.value);
+  const isAbsent = (id: string) => left.has(id) || hidden.has(ids.get(id) ?? '');
   const { sliders, counts, warnings } = family.found.family;
+  const isOfProgram = family.base.of === undefined;
   const sections = [...new Set(sliders.map(({ section }) => section))];
   return (
     <div class="family">
       <Strip family={family} model={model} />
       <FamilyKinds family={family} />
-      <Optional family={family} ids={ids} />
+      <Optional family={family} />
       <section aria-label={t`Sliders`}>
         <h3>
           {plural(counts.sliders, '{n} slider', '{n} sliders')}{' '}
-          <span class="quiet">{t`for ${Object.keys(family.found.values).length} numbers of the program`}</span>
+          <span class="quiet">
+            {isOfProgram
+              ? t`for ${Object.keys(family.found.values).length} numbers of the program`
+              : t`for ${Object.keys(family.found.values).length} numbers of the parts`}
+          </span>
         </h3>
         {sections.map((section) => (
           <div key={section} class="family-section">
@@ -50,7 +56,7 @@ export function FamilyPanel() {
         ))}
       </section>
       <Mix family={family} />
-      <FamilyShared family={family} cad={cad} ids={ids} />
+      <FamilyShared family={family} cad={family.base} ids={ids} />
       {warnings.length > 0 && (
         <ul class="quiet">
           {warnings.map((text) => (
@@ -80,32 +86,32 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
   const { files } = model;
   useEffect(() => drawFamily(files, family), [files, pictures]);
   const entries = [
-    { name: t`as drawn`, setting: family.found.family.sliders.map(({ value }) => value) },
-    ...variations.map(({ name }, i) => ({ name, setting: settingOf(family, i) })),
+    { name: t`as drawn`, variation: null },
+    ...variations.map(({ name }, i) => ({ name, variation: i })),
   ];
   return (
     <section aria-label={t`Variations`}>
       <ul class="variations">
-        {entries.map(({ name, setting }, i) => (
+        {entries.map(({ name, variation }, i) => (
           <li key={name}>
             <button
               type="button"
-              aria-pressed={actions.isAt(family, setting)}
+              aria-pressed={actions.isShown(variation)}
               onClick={() => {
                 interrupt();
-                actions.showVariation(i === 0 ? null : i - 1);
+                actions.showVariation(variation);
               }}
             >
               <span class="thumbnail">{familyPictures.value[i] && <img src={familyPictures.value[i]} alt="" />}</span>
               <span>{name}</span>
             </button>
-            {i > 0 && (
+            {variation !== null && (
               <button
                 type="button"
                 class="button icon-only remove"
                 aria-label={t`Remove ${name}`}
                 title={t`Remove this variation`}
-                onClick={() => models.value && void actions.removeVariation(models.value, i - 1)}
+                onClick={() => models.value && void actions.removeVariation(models.value, variation)}
               >
                 <Icon name="close" />
               </button>
@@ -113,60 +119,28 @@ function Strip({ family, model }: { family: FamilyState; model: OpenModel }) {
           </li>
         ))}
       </ul>
-      <SuggestKinds />
-      <Keep family={family} />
+      {family.base.of === undefined && <SuggestKinds />}
+      <KeepVariation />
     </section>
   );
 }
 
-/** What stands on the stage, as one more variation. */
-function Keep({ family }: { family: FamilyState }) {
-  const name = useSignal('');
-  const typed = name.value.trim();
-  const taken = family.found.family.variations.some((variation) => variation.name === typed);
-  return (
-    <form
-      class="row keep"
-      onSubmit={async (event) => {
-        event.preventDefault();
-        if (models.value === null || typed === '' || taken) return;
-        if (await actions.keepVariation(models.value, typed)) name.value = '';
-      }}
-    >
-      <input
-        class="grow"
-        type="text"
-        maxLength={60}
-        placeholder={t`Name of what you see`}
-        aria-label={t`Name of the variation`}
-        value={name.value}
-        onInput={(event) => (name.value = event.currentTarget.value)}
-      />
-      <button type="submit" class="button" disabled={typed === '' || taken || task.value !== null}>
-        {taken ? t`Name is taken` : t`Keep as variation`}
-      </button>
-    </form>
-  );
-}
-
 /** Parts that not all variations have. */
-function Optional({ family, ids }: { family: FamilyState; ids: ReadonlyMap<string, string> }) {
-  const { hidden, model } = document.value;
+function Optional({ family }: { family: FamilyState }) {
   const { optional } = family.found.family;
-  const parts = model?.files.cad?.parts ?? [];
+  const { parts } = family.base;
   if (optional.length === 0) return null;
   return (
     <fieldset class="optional">
       <legend>{t`Not all have`}</legend>
       {optional.map((group) => {
-        const those = group.parts.flatMap((id) => ids.get(id) ?? []);
         const names = group.parts.map((id) => parts.find((part) => part.id === id)?.name ?? id);
         return (
           <label key={group.parts.join(' ')} class="check" title={t`Not in: ${group.absent_from.join(', ')}`}>
             <input
               type="checkbox"
-              checked={!those.some((id) => hidden.has(id))}
-              onChange={(event) => setHidden(those, !event.currentTarget.checked)}
+              checked={areThere(document.value, group.parts)}
+              onChange={(event) => actions.setThere(group.parts, event.currentTarget.checked)}
             />
             <span>{names.join(', ')}</span>
           </label>

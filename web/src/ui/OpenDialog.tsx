@@ -23,14 +23,19 @@ export function OpenDialog() {
   const address = useSignal('');
   const ready = models.value !== null;
   useEffect(() => {
-    let stop = () => {};
+    let stop: (() => void) | null = null;
+    let isClosed = false;
     void Promise.all([loadGallery(), loadPrograms(), loadNameless()]).then(([entries, cad, bare]) => {
+      if (isClosed) return; // a file was quicker: nobody sees the pictures, and drawing them takes a while
       gallery.value = entries;
       programs.value = cad;
       nameless.value = bare;
       stop = thumbnails([...entries, ...cad, ...bare].map(({ id }) => id));
     });
-    return () => stop();
+    return () => {
+      isClosed = true;
+      stop?.();
+    };
   }, [gallery, programs, nameless]);
 
   return (

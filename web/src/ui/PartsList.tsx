@@ -2,7 +2,7 @@
 // Tab key: arrows walk it. Of a long list only what is in sight is drawn.
 
 import { type Signal, useSignal } from '@preact/signals';
-import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 import type { ShapePart } from '../program/types';
 import {
   document,
@@ -34,8 +34,12 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
   const { names } = document.value;
   const named = ({ id, name }: ShapePart) => names.get(id) ?? name;
   const chosen = new Set(selected.value);
-  const holds = (group: ShapePart) => opened.value.has(group.id) || group.members.some((id) => chosen.has(id));
-  const rows = partRows(parts, { query: query.value, nameOf: named, isOpen: holds });
+  // What is selected changes the rows only where it opens a group.
+  const holding = parts.filter(({ members }) => members.some((id) => chosen.has(id))).map(({ id }) => id);
+  const rows = useMemo(() => {
+    const open = new Set([...opened.value, ...holding]);
+    return partRows(parts, { query: query.value, nameOf: named, isOpen: ({ id }) => open.has(id) });
+  }, [parts, names, query.value, opened.value, holding.join(' ')]);
   const isLong = parts.length > mostShort;
   const [first, end] = rowsInSight(rows.length, rowHeight, scrolled.value, list.current?.clientHeight || 600);
   const indexOf = (id: string) =>
@@ -161,7 +165,7 @@ export function PartsList({ parts }: { parts: readonly ShapePart[] }) {
 function selectRange(rows: readonly PartRow[], from: string, to: string): void {
   const [a, b] = [from, to].map((id) => rows.findIndex(({ part }) => part.id === id)) as [number, number];
   if (a < 0 || b < 0) {
-    select(to);
+    selectAlso(to); // the range begins at a row that is folded away, or does not match the search
     return;
   }
   const range = rows.slice(Math.min(a, b), Math.max(a, b) + 1).map(({ part }) => part.id);

@@ -4,6 +4,7 @@ import { useSignal } from '@preact/signals';
 import { isGroup, type ShapePart } from '../program/types';
 import { models } from '../session/core';
 import { nameOf, partKey } from '../session/document';
+import { oncePerShape } from '../session/once_per_shape';
 import { relabel } from '../session/open';
 import { document, pointedAt, select, selectAll, selected, selection, showAll } from '../session/session';
 import { t } from '../texts/texts';
@@ -55,10 +56,17 @@ function SelectedPart() {
   );
 }
 
+const labelsOf = oncePerShape(({ parts }) => [
+  ...new Set(parts.filter(({ virtual }) => !virtual).map(({ label }) => label)),
+]);
+/** Nobody reads a longer list, and a model may have a thousand labels. */
+const mostOffered = 50;
+
 /** What the part is, in the words of the file or of a person: parts of one label are compared for symmetry. */
 function Label({ part }: { part: ShapePart }) {
   const { model } = document.value;
   const typed = useSignal<string | null>(null);
+  const isFocused = useSignal(false);
   if (model === null) return null;
   const members = part.virtual ? model.shape.parts.filter(({ id }) => part.members.includes(id)) : [part];
   const [first] = members;
@@ -72,7 +80,8 @@ function Label({ part }: { part: ShapePart }) {
     const again = document.peek().model?.shape.parts.find((other) => partKey(other) === partKey(first));
     if (again) select(again.id);
   };
-  const labels = [...new Set(model.shape.parts.filter(({ virtual }) => !virtual).map(({ label }) => label))];
+  const wanted = typed.value?.toLowerCase() ?? '';
+  const offered = isFocused.value ? labelsOf(model.shape).filter((label) => label.toLowerCase().includes(wanted)) : [];
   return (
     <form
       class="label"
@@ -92,6 +101,8 @@ function Label({ part }: { part: ShapePart }) {
         autocomplete="off"
         value={typed.value ?? first.label}
         aria-describedby="part-label-help"
+        onFocus={() => (isFocused.value = true)}
+        onBlur={() => (isFocused.value = false)}
         onInput={(event) => {
           typed.value = event.currentTarget.value;
         }}
@@ -100,7 +111,7 @@ function Label({ part }: { part: ShapePart }) {
         }}
       />
       <datalist id="part-labels">
-        {labels.map((label) => (
+        {offered.slice(0, mostOffered).map((label) => (
           <option key={label} value={label} />
         ))}
       </datalist>

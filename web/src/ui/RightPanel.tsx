@@ -1,8 +1,8 @@
-// The right panel: the edits, and beside them the family of a CAD program.
+// The right panel: the edits, and beside them the family of a CAD program or of kept variations.
 
 import type { Signal } from '@preact/signals';
 import { useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
+import { useEffect, useRef } from 'preact/hooks';
 import { document } from '../session/session';
 import { t } from '../texts/texts';
 import { EditsPanel } from './EditsPanel';
@@ -21,6 +21,12 @@ export function RightPanel({ pickKind }: { readonly pickKind: Signal<FeatureKind
   useEffect(() => {
     if (edits > 0) tab.value = 'edits'; // a new edit, whose slider is wanted next
   }, [edits, tab]);
+  const hasFamily = family !== undefined;
+  const seen = useRef(model?.files);
+  useEffect(() => {
+    if (hasFamily && seen.current === model?.files) tab.value = 'family'; // a variation was kept
+    seen.current = model?.files;
+  }, [hasFamily, model?.files, tab]);
   if (family === undefined) return <EditsPanel pickKind={pickKind} />;
   return (
     <>

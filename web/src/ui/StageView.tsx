@@ -1,7 +1,7 @@
 // The canvas: hover and click on parts, and on their features while an edit is made by hand.
 
 import type { Signal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import type { LocalTriple, Sign, Vec3 } from '../program/types';
 import type { Insets } from '../scene/camera';
 import { ruler, setPoint } from '../session/ruler';
@@ -39,7 +39,7 @@ export function StageView({ insets, pickKind }: StageViewProps) {
 
   const { left, right, top, bottom } = insets;
   const model = document.value.model;
-  useEffect(() => {
+  useLayoutEffect(() => {
     stage.value?.setInsets({ left, right, top, bottom });
     if (stage.value?.rig.isFramed) stage.value.fit(null);
   }, [left, right, top, bottom, stage.value]);

@@ -2,24 +2,22 @@
 
 import { models } from '../session/core';
 import { plainName } from '../session/download_names';
-import { shapeIds } from '../session/family_state';
+import { areThere } from '../session/family_state';
 import { family as actions, document, run } from '../session/session';
 import { t } from '../texts/texts';
 import { download } from './actions';
 
 async function text() {
   const core = models.peek();
-  const { model, family, hidden } = document.peek();
-  const cad = model?.files.cad;
-  if (core === null || model === null || family === undefined || cad === undefined) return null;
-  const ids = shapeIds(cad, model.shape);
+  const { model, family } = document.peek();
+  if (core === null || model === null || family === undefined) return null;
   const made = await run(t`Writing the program`, () =>
     core.familyText({
-      cad: cad.program,
+      cad: family.base.program,
       variations: family.variations,
       choices: { ...family.choices },
       setting: [...actions.settingNow(family)],
-      with: family.found.family.optional.map(({ parts }) => !parts.some((id) => hidden.has(ids.get(id) ?? ''))),
+      with: family.found.family.optional.map(({ parts }) => areThere(document.peek(), parts)),
     }),
   );
   return made === null ? null : { ...made, name: plainName(model.shape.name) };

@@ -162,6 +162,14 @@ const coreMethods = {
       warnings: v.array(v.strictObject({ place: v.string(), text: v.string() })),
     }),
   },
+  /** What each way would tell apart of the opened model, and whether those are more parts than a model may have. */
+  split_ways: {
+    parameters: v.strictObject({ fine: v.number() }),
+    result: v.strictObject({
+      before: v.number(),
+      ways: v.array(v.strictObject({ by: splitMethodSchema, parts: v.number(), too_many: v.boolean() })),
+    }),
+  },
   /** Bytes of the core's memory. It never shrinks, so this is its peak as well. */
   memory: { parameters: v.strictObject({}), result: v.strictObject({ bytes: v.number() }) },
   /** `parsel/edit` v1 to a `parsel/program` v1 of one layer, and how it was found. */
