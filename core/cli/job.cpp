@@ -17,6 +17,7 @@
 #include "core/edit/readable.h"
 #include "core/export/sliders.h"
 #include "core/infer/plain_reading.h"
+#include "core/propagate/clean.h"
 #include "core/propagate/compose.h"
 #include "core/propagate/propagate.h"
 #include "core/prove/stack.h"
@@ -146,8 +147,9 @@ class Work {
     Result<Propagation> found = propagate(shape, *request, options);
     if (!found) return found.error();
     for (const std::string& note : found->trace.notes) warn(edit.wish.request + ": " + note);
-    // A size that was said sets the slider, as far as it goes.
+    // A size that was said sets the slider, beyond its end as far as all holds.
     if (target && !found->program.layers.empty()) {
+      extend_range(shape, found->program, 0, target->x);
       Parameter& parameter = found->program.layers.front().parameter;
       parameter.value = std::clamp(target->x, parameter.min, parameter.max);
       if (parameter.value != target->x) warn(edit.wish.request + ": the slider ends before the size that was said");

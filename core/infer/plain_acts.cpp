@@ -12,13 +12,20 @@ constexpr double tall_enough = 0.5;  ///< of its longest edge, and more can grow
 
 }  // namespace
 
+bool is_drawer(const Shape& shape, PartIndex part) {
+  const std::string& id = shape.parts[part].id;
+  return id.find("drawer") != id.npos || id.find("schublade") != id.npos;
+}
+
 Meant PartMeaning::raise(PartIndex part) {
   if (clause_.where && !(clause_.where->axis == 1 && clause_.where->sign == clause_.sign))
     return no_edit("it is not clear what shall happen on that side");
   StatementMaker make(facts_, clause_.sign);
   // What stands and is no plate that lies there grows; what lies on supports goes up with them.
   const Vec3 e = facts_.edges(part);
-  const bool is_upright = e[1] >= tall_enough * e.maxCoeff() && facts_.thin_axis(part) != std::optional(1);
+  const auto thin = facts_.thin_axis(part);
+  // A board on its edge, as an armrest is, grows as well.
+  const bool is_upright = thin != std::optional(1) && (e[1] >= tall_enough * e.maxCoeff() || thin);
   const bool is_row = shape_.parts[part].is_virtual() && !group_fault(part, 1, false).empty();
   if (is_row) return no_edit("it is not clear how high a row of " + name_of(shape_, part) + " shall be");
   if (is_upright && facts_.stands(part)) {
@@ -80,7 +87,8 @@ Meant PartMeaning::move(PartIndex part, const std::vector<PartIndex>& set) {
       make.space(part);
       return finished(make);
     }
-    const auto [axis, sign] = facts_.outward(part);
+    const bool is_pulled = clause_.knows_way || is_drawer(shape_, part);
+    const auto [axis, sign] = is_pulled ? facts_.opening(part) : facts_.outward(part);
     if (set.size() > 2) return no_edit("it is not clear which way is out");
     to = Side{axis, sign * out};
   }
@@ -136,8 +144,8 @@ Meant PartMeaning::open(PartIndex part) {
   if (clause_.where) return no_edit("it is not clear which way it opens");
   const Vec3 e = facts_.edges(part);
   StatementMaker make(facts_, 1);
-  if (has_word(part, {"drawer", "schublade"})) {
-    const auto [axis, sign] = facts_.outward(part);
+  if (is_drawer(shape_, part)) {
+    const auto [axis, sign] = facts_.opening(part);
     make.move(part, {axis, sign});
     return finished(make);
   }

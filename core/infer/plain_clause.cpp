@@ -95,6 +95,7 @@ class Parser {
       if (comma && conjunction) next.link = Link::comma_and_conjunction;
     }
     sentence_.clauses.push_back(next);
+    says_one_ = false;
   }
 
   void end_clause() {
@@ -194,7 +195,9 @@ class Parser {
 
   void part(const Item& item) {
     Clause& c = now();
-    Noun noun{item.parts, {}, middle_.has_value(), item.plural, item.distance == 3, item.first};
+    Noun noun{item.parts, {}, middle_.has_value(), item.plural, item.distance == 3, item.first, false};
+    noun.stands = names_.is_standing(tokens_[item.first + item.count - 1].text);
+    says_one_ = says_one_ || (!item.plural && item.first > 0 && names_.is_one(tokens_[item.first - 1].text));
     for (const Item& side : sides_) noun.sides.push_back({side.word.axis, side.word.sign});
     const bool belongs =
         at_ > 0 && (items_[at_ - 1].word.kind == WordKind::of || items_[at_ - 1].word.kind == WordKind::at);
@@ -343,6 +346,7 @@ class Parser {
       change(items_[at_].word.change, sign * items_[at_].word.sign, items_[at_]);
     } else {
       change(Change::count, sign, item);
+      now().counts_one = now().counts_one || says_one_;  // "ein Boden mehr"
     }
   }
 
@@ -379,7 +383,8 @@ class Parser {
   std::vector<Item> sides_;  ///< waiting for their part
   std::optional<Item> middle_, adjective_, factor_, number_;
   bool many_ = false, to_ = false, exact_ = false;
-  bool goes_ = false;  ///< "out", "upwards": a move, if nothing else is said
+  bool says_one_ = false;  ///< "a shelf"
+  bool goes_ = false;      ///< "out", "upwards": a move, if nothing else is said
 };
 
 }  // namespace

@@ -35,6 +35,7 @@ struct Noun {
   bool middle = false, plural = false;
   bool is_made_of = false;  ///< several parts that make up one thing: the posts of a "back"
   std::size_t token = 0;
+  bool stands = false;  ///< legs and feet: of what is called so, what is on the floor
 };
 
 /// How much: by a difference, to a size, or times what it is.
@@ -54,6 +55,7 @@ struct Clause {
   bool whole = false;         ///< it names the whole, or says "it"
   bool names_whole = false;   ///< by a noun
   bool follows = false;       ///< "let the fence follow"
+  bool serves = false;        ///< it says by what another one comes about: "longer by moving the supports apart"
   std::optional<Side> where;  ///< "at the top", "to the left", "upwards"
   int out = 0;                ///< 1 outwards, -1 inwards
   std::optional<HowMuch> how_much;

@@ -16,7 +16,7 @@ constexpr double bar_length = 1.5;         ///< and more of its section is a bar
 constexpr double plate = 1.6;              ///< and more of its thickness is a plate
 constexpr double square = 0.02;
 constexpr double on_floor = 0.02;      ///< of the whole's height
-constexpr double near_floor = 0.10;    ///< likewise: a pole on a base
+constexpr double near_floor = 0.15;    ///< likewise: a pole on a base
 constexpr double tall_support = 0.25;  ///< likewise
 constexpr double tall_whole = 0.40;    ///< likewise: what sets it
 
@@ -145,12 +145,27 @@ bool ShapeFacts::hangs(PartIndex part) const {
   });
 }
 
-int ShapeFacts::joined_end(PartIndex part, int axis) const {
+int ShapeFacts::joined_end(PartIndex part, int axis, double near) const {
+  return joined_end(part, axis, near, {});
+}
+
+int ShapeFacts::held_end(PartIndex part, int axis, double near) const {
+  const PartBox own = extent(part);
+  std::vector<PartIndex> others = carried_by({part});
+  for (const Joint& joint : joints_[part.value()]) {
+    const PartBox inner = extent(joint.other);
+    if ((inner.low - own.low).minCoeff() >= 0 && (own.high - inner.high).minCoeff() >= 0) others.push_back(joint.other);
+  }
+  return joined_end(part, axis, near, others);
+}
+
+int ShapeFacts::joined_end(PartIndex part, int axis, double near, const std::vector<PartIndex>& others) const {
   const PartBox own = extent(part);
   int end = 0;
   for (const Joint& joint : joints_[part.value()]) {
+    if (std::find(others.begin(), others.end(), joint.other) != others.end()) continue;
     const double at = (joint.at.centre()[axis] - own.centre()[axis]) / std::max(own.size()[axis] / 2, 1e-9);
-    const int here = at > 0.6 ? 1 : at < -0.6 ? -1 : 0;
+    const int here = at > near ? 1 : at < -near ? -1 : 0;
     if (here == 0 || here == -end) return 0;
     end = here;
   }
@@ -253,15 +268,21 @@ std::vector<PartIndex> ShapeFacts::carried_by(const std::vector<PartIndex>& part
     pieces.push_back(std::move(piece));
   }
   if (pieces.empty()) return {};
-  const auto largest =
-      std::max_element(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  // What stands on the floor carries, and nothing carries it.
+  const auto feet = [&](const std::set<PartIndex>& piece) {
+    return std::count_if(piece.begin(), piece.end(),
+                         [&](PartIndex p) { return extent(p).low[1] - whole_.low[1] <= on_floor * whole_.size()[1]; });
+  };
+  const auto largest = std::max_element(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) {
+    return std::pair(feet(a), a.size()) < std::pair(feet(b), b.size());
+  });
   std::vector<PartIndex> carried;
   for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {
     const bool hangs_on = std::any_of(piece->begin(), piece->end(), [&](PartIndex p) {
       return std::any_of(joints_[p.value()].begin(), joints_[p.value()].end(),
                          [&](const Joint& joint) { return carriers.count(joint.other) > 0; });
     });
-    if (piece != largest && hangs_on) carried.insert(carried.end(), piece->begin(), piece->end());
+    if (piece != largest && feet(*piece) == 0 && hangs_on) carried.insert(carried.end(), piece->begin(), piece->end());
   }
   return carried;
 }
@@ -278,6 +299,17 @@ std::pair<int, int> ShapeFacts::outward(PartIndex part) const {
     }
   }
   return best;
+}
+
+std::pair<int, int> ShapeFacts::opening(PartIndex part) const {
+  constexpr double before = 0.05;  // half-diagonals
+  const PartBox own = extent(part);
+  const std::vector<Joint>& joints = joints_[part.value()];
+  const bool is_free = std::none_of(joints.begin(), joints.end(), [&](const Joint& joint) {
+    const PartBox other = extent(joint.other);
+    return other.size().prod() > own.size().prod() && other.high[2] - own.high[2] > before;
+  });
+  return !joints.empty() && is_free ? std::pair(2, 1) : outward(part);
 }
 
 int ShapeFacts::hinge(PartIndex door) const {

@@ -46,7 +46,10 @@ class ShapeFacts {
   /// It does not stand, and its upper end is joined to what is above it.
   bool hangs(PartIndex part) const;
   /// The end along the axis (-1 or 1) at which all its joints are; 0 when they are elsewhere as well.
-  int joined_end(PartIndex part, int axis) const;
+  /// `near`: of half its length from its middle, and more is at an end.
+  int joined_end(PartIndex part, int axis, double near = 0.6) const;
+  /// The end at which it is held: where its joints are but for those with what is inside it or carried by it.
+  int held_end(PartIndex part, int axis, double near = 0.6) const;
   /// What carries it on the floor: an upright part below, the first of several.
   std::optional<PartIndex> support(PartIndex part) const;
   /// The part that sets the whole's width (0) or depth (2). `close`: one that may as well, if there is one.
@@ -57,6 +60,8 @@ class ShapeFacts {
   std::vector<PartIndex> carried_by(const std::vector<PartIndex>& parts) const;
   /// Which way is out for a part: the horizontal axis and side on which it is nearest to the whole's outside.
   std::pair<int, int> outward(PartIndex part) const;
+  /// Which way a drawer goes: to the front where nothing larger that it is joined to is before it, else outwards.
+  std::pair<int, int> opening(PartIndex part) const;
 
   /// The side (1 left, -1 right) on which a door hangs: across from its handle, else away from the whole's middle.
   int hinge(PartIndex door) const;
@@ -72,6 +77,7 @@ class ShapeFacts {
     PartIndex other;
     PartBox at;
   };
+  int joined_end(PartIndex part, int axis, double near, const std::vector<PartIndex>& others) const;
   const Shape& shape_;
   std::vector<PartIndex> active_;
   std::vector<RelationIndex> relations_;

@@ -17,7 +17,13 @@ namespace parsel {
 /// No edit, and why.
 Meant no_edit(std::string fault);
 std::string name_of(const Shape& shape, PartIndex part);
+/// By its label, in any of the languages that requests are read in.
+bool is_drawer(const Shape& shape, PartIndex part);
 bool is_size(Change change);
+
+/// Gives up the joints along which the parts slide, open or grow, and lets what hangs on what is opened go along.
+/// `parts`: one that the edit changes, with those of its mirror images that are meant as well.
+void loosen(const ShapeFacts& facts, const Clause& clause, const std::vector<PartIndex>& parts, PlainEdit& edit);
 
 class PartMeaning {
  public:

@@ -27,9 +27,19 @@ std::vector<std::string> label_words(std::string_view label) {
   return words;
 }
 
+bool share(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  return std::any_of(a.begin(), a.end(), [&](const std::string& word) { return contains(b, word); });
+}
+
 std::string glue(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += word;
+  return text;
+}
+
+std::string spaced(std::span<const Token> phrase) {
+  std::string text;
+  for (const Token& token : phrase) text += (text.empty() ? "" : " ") + token.text;
   return text;
 }
 
@@ -45,12 +55,13 @@ PartNames::PartNames(const Shape& shape, const WordList& list)
   for (const PartIndex p : active_parts(shape)) {
     const Part& part = shape.parts[p];
     const std::string& label = part.is_virtual() ? shape.parts[part.members.front()].label : part.label;
-    Named named{p, label_words(label), "", ""};
-    named.glued = glue(named.words);
-    named.key = glue(label_words(grouping_key(label)));
+    Named named{p, label_words(label), {}, {}, {}};
+    named.glued = list.singulars(glue(named.words));
+    if (!named.words.empty()) named.last = list.singulars(named.words.back());
+    named.key = list.singulars(glue(label_words(grouping_key(label))));
     for (const std::string& word : named.words) known_.push_back(word);
-    known_.push_back(named.glued);
-    known_.push_back(named.key);
+    known_.push_back(named.glued.front());
+    known_.push_back(named.key.front());
     named_.push_back(std::move(named));
   }
   const std::size_t labels = known_.size();
@@ -70,23 +81,52 @@ PartNames::PartNames(const Shape& shape, const WordList& list)
 
 std::vector<PartIndex> PartNames::bearing(const std::vector<std::string>& forms, bool by_key) const {
   std::vector<PartIndex> exact, ending, keyed;
+  bool is_ending = false;
   for (const Named& named : named_) {
-    if (contains(forms, named.glued)) exact.push_back(named.part);
-    if (!named.words.empty() && contains(forms, named.words.back())) ending.push_back(named.part);
-    if (by_key && contains(forms, named.key)) keyed.push_back(named.part);
+    const bool is_keyed = share(forms, named.key);
+    if (share(forms, named.glued)) exact.push_back(named.part);
+    // Of "right door" and "leftdoor", either is a door.
+    if (share(forms, named.last) || is_keyed) ending.push_back(named.part);
+    if (share(forms, named.last)) is_ending = true;
+    if (by_key && is_keyed) keyed.push_back(named.part);
   }
-  return !exact.empty() ? exact : !ending.empty() ? ending : keyed;
+  return !exact.empty() ? exact : is_ending ? ending : keyed;
 }
 
 NamedParts PartNames::called(std::span<const Token> phrase) const {
+  NamedParts found = named(phrase);
+  if (found.parts.empty() && phrase.size() > 1 && share(list_.singulars(phrase.back().text), list_.generic)) {
+    found = named(phrase.first(phrase.size() - 1));
+    found.plural = phrase.back().text != list_.singulars(phrase.back().text).back();
+    found.distance = std::max(found.distance, 1);
+  }
+  // A frame is what it is of only where nothing else is.
+  const auto is_frame = [&](PartIndex part) {
+    const auto& words =
+        std::find_if(named_.begin(), named_.end(), [&](const Named& n) { return n.part == part; })->words;
+    return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+      return contains(list_.frames, word) && std::none_of(phrase.begin(), phrase.end(), [&](const Token& said) {
+               return share(list_.singulars(said.text), list_.singulars(word));
+             });
+    });
+  };
+  std::vector<PartIndex> rest = found.parts;
+  std::erase_if(rest, is_frame);
+  if (!rest.empty()) found.parts = std::move(rest);
+  return found;
+}
+
+NamedParts PartNames::named(std::span<const Token> phrase) const {
   NamedParts found;
   std::string before;  // all but the last word
   for (std::size_t i = 0; i + 1 < phrase.size(); ++i) before += phrase[i].text;
   std::vector<std::string> forms;
   for (const std::string& last : list_.singulars(phrase.back().text)) forms.push_back(before + last);
+  const std::string& said = phrase.back().text;
   const auto plural_of = [&](const auto& matches) {
-    // The first form is the word itself: a plural is what only its other forms name.
-    return !matches({forms.front()});
+    // The first form is the word itself: a plural is what only its other forms name, or a plural that labels have as well.
+    const bool may_be = forms.size() > 1 && !said.ends_with("ss");
+    return !matches({forms.front()}) || (may_be && found.parts.size() > 1);
   };
 
   for (const bool by_key : {false, true}) {
@@ -114,13 +154,20 @@ NamedParts PartNames::called(std::span<const Token> phrase) const {
     found.plural = plural_of([&](const std::vector<std::string>& some) { return !by_synonym(some).empty(); });
     return found;
   }
+  if (const auto also = list_.also.find(spaced(phrase)); also != list_.also.end()) {
+    for (const Named& one : named_) {
+      if (share(also->second, one.glued)) found.parts.push_back(one.part);
+    }
+    if (!found.parts.empty()) return found;
+  }
   const auto within = [&](const std::vector<std::string>& some) {
     std::vector<PartIndex> parts;
     for (const Named& named : named_) {
       const bool has = std::any_of(some.begin(), some.end(), [&](const std::string& form) {
         constexpr std::size_t shortest = 3;
+        const std::string& glued = named.glued.front();
         return contains(named.words, form) ||
-               (form.size() >= shortest && (named.glued.ends_with(form) || named.glued.starts_with(form)));
+               (form.size() >= shortest && (glued.ends_with(form) || glued.starts_with(form)));
       });
       if (has) parts.push_back(named.part);
     }
@@ -142,6 +189,14 @@ NamedParts PartNames::called(std::span<const Token> phrase) const {
     }
   }
   return found;
+}
+
+bool PartNames::is_one(const std::string& word) const {
+  return contains(list_.one, word);
+}
+
+bool PartNames::is_standing(const std::string& word) const {
+  return share(list_.singulars(word), list_.standing);
 }
 
 bool PartNames::is_behind(PartIndex part) const {
@@ -179,7 +234,7 @@ bool PartNames::is_whole(std::span<const Token> phrase) const {
 
 bool PartNames::has_word(PartIndex part, const std::string& word) const {
   const auto found = std::find_if(named_.begin(), named_.end(), [&](const Named& named) { return named.part == part; });
-  return found != named_.end() && (contains(found->words, word) || found->glued.starts_with(word));
+  return found != named_.end() && (contains(found->words, word) || found->glued.front().starts_with(word));
 }
 
 }  // namespace parsel

@@ -28,6 +28,10 @@ class PartNames {
   NamedParts called(std::span<const Token> phrase) const;
   /// Whether it names the whole: what the file's name calls it, or, where that says nothing, any such thing.
   bool is_whole(std::span<const Token> phrase) const;
+  /// "a", "ein": one unit in count.
+  bool is_one(const std::string& word) const;
+  /// Whether it is a noun for what stands on the floor.
+  bool is_standing(const std::string& word) const;
   /// Whether a label of the part has this word.
   bool has_word(PartIndex part, const std::string& word) const;
   /// Every single word that can name a part, for slips.
@@ -37,9 +41,11 @@ class PartNames {
   struct Named {
     PartIndex part;
     std::vector<std::string> words;  ///< of the label
-    std::string glued, key;          ///< the label as one word; without direction words
+    /// The label as one word, its last word, and it without direction words: as they are, and what they may be plurals of.
+    std::vector<std::string> glued, last, key;
   };
   std::vector<PartIndex> bearing(const std::vector<std::string>& forms, bool by_key = true) const;
+  NamedParts named(std::span<const Token> phrase) const;
 
   /// Behind the middle of the parts: of what a "back" is made of, only what is there.
   bool is_behind(PartIndex part) const;

@@ -142,8 +142,21 @@ Way take(const ShapeFacts& facts, const std::vector<Token>& tokens, const std::v
     if (main[i]->begins == Clause::Begins::conjunction || main[i]->begins == Clause::Begins::first) continue;
     const bool is_means = main[i]->begins != Clause::Begins::so;
     if (main[i - 1]->change != Change::none && !agree(*main[i - 1], *main[i])) fail("its parts do not go together");
+    if (is_means) main[i]->serves = true;
     main.erase(main.begin() + static_cast<std::ptrdiff_t>(is_means ? i - 1 : i));
     --i;
+  }
+  // "Shorter" is lower for what is longer as well, but nobody means that.
+  for (const Clause* a : main) {
+    for (const Clause* b : main) {
+      if (a->change == Change::length && b->change == Change::height && a->sign != b->sign)
+        fail("it asks for longer and for shorter");
+    }
+  }
+  // "Bigger and smaller pillows": the whole, and the pillows? Or are both said of them?
+  for (std::size_t i = 1; i < main.size(); ++i) {
+    const Clause &a = *main[i - 1], &b = *main[i];
+    if (a.nouns.empty() && !a.whole && a.change == b.change && a.sign != b.sign) fail("it asks for more and for less");
   }
   if (main.empty()) {
     fail("it does not say what shall change");
@@ -196,7 +209,8 @@ std::string key(const Shape& shape, const PlainEdit& edit) {
   json rest = to_json(*request);
   rest.erase("seed");
   std::string text = reading_signature(shape, edit.statements) + rest.dump();
-  if (edit.target) text += edit.target->part + edit.target->what + std::to_string(edit.target->how_much.value);
+  // Of the whole or of the part that sets it, the same value is the same.
+  if (edit.target) text += std::to_string(edit.target->x);
   return text;
 }
 
@@ -298,9 +312,13 @@ Inference as_inference(const Shape& shape, const PlainReading& reading) {
   }
   const PlainEdit& first = reading.edits.front();
   for (const auto& [part, hint] : first.hints) out.hints.push_back({part, hint, 1, 1});
+  std::set<RelationIndex> listed;
   for (const RelationIndex r : active_relations(shape)) {
-    if (shape.relations[r].is_symmetry()) out.relations.push_back({r, first.loose.count(r) == 0, 1, 1});
+    if (shape.relations[r].is_symmetry()) listed.insert(r);
   }
+  // Of joints those that give way in one of the readings.
+  for (const PlainEdit& edit : reading.edits) listed.insert(edit.loose.begin(), edit.loose.end());
+  for (const RelationIndex r : listed) out.relations.push_back({r, first.loose.count(r) == 0, 1, 1});
   out.edit = request_of(shape, first);
   return out;
 }

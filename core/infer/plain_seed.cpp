@@ -21,7 +21,8 @@ class Meaning {
     if (clause_.change == Change::none) return any_change();
     if (clause_.how_much && clause_.how_much->unit == HowMuch::Unit::none) return any_unit();
     if (clause_.nouns.empty() && pointed_.empty()) return of_whole();
-    const Noun noun = clause_.nouns.empty() ? Noun{pointed_, {}, false, true, false, 0} : clause_.nouns.front();
+    Noun noun = clause_.nouns.empty() ? Noun{pointed_, {}, false, true, false, 0, false} : clause_.nouns.front();
+    if (noun.stands) leave_what_stands(noun.parts);
     const std::vector<PartIndex> parts = clause_.nouns.empty() ? pointed_ : chosen(facts_, noun);
     if (parts.empty()) return no_edit("no such part is on that side");
     const bool some_only = parts.size() < noun.parts.size() || !shares_all(parts, noun.parts);
@@ -42,6 +43,9 @@ class Meaning {
     for (const auto& set : sets) {
       Meant one = PartMeaning(facts_, clause_).of(set.front(), set);
       if (one.edits.empty()) return one;
+      if (!noun.is_made_of) {
+        for (PlainEdit& edit : one.edits) loosen(facts_, clause_, set, edit);
+      }
       if (!all.edits.front().statements.empty() && !alike(all.edits.front(), one.edits.front()))
         one.fault = "the parts that are called that would change in different ways";
       Meant both;
@@ -70,6 +74,12 @@ class Meaning {
     return std::all_of(all.begin(), all.end(),
                        [&](PartIndex p) { return std::find(some.begin(), some.end(), p) != some.end(); });
   }
+  void leave_what_stands(std::vector<PartIndex>& parts) const {
+    constexpr double on_floor = 0.02;  // half-diagonals
+    std::vector<PartIndex> standing = parts;
+    std::erase_if(standing, [&](PartIndex p) { return facts_.extent(p).low[1] - facts_.whole().low[1] > on_floor; });
+    if (standing.size() > 1) parts = std::move(standing);
+  }
   /// What is true of the posts of a back is true of the back: that they grow upwards, or lean.
   bool goes_for_pieces() const {
     return clause_.change == Change::tilt || clause_.change == Change::raise || clause_.change == Change::height;
@@ -97,6 +107,7 @@ class Meaning {
       if (offers.edits.size() == most_offers) break;
       Meant one = PartMeaning(facts_, clause_).of(p, {p});
       if (one.edits.empty()) continue;
+      loosen(facts_, clause_, {p}, one.edits.front());
       for (const RelationIndex r : facts_.reflections_leaving({p})) one.edits.front().loose.insert(r);
       offers.edits.push_back(std::move(one.edits.front()));
     }

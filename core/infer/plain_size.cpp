@@ -95,7 +95,10 @@ Meant PartMeaning::size_of(PartIndex part, const std::vector<PartIndex>& set) {
   if (clause_.change == Change::size) {
     if (clause_.where || clause_.out != 0) return no_edit("it is not clear what shall happen on that side");
     if (shape_.parts[part].is_virtual()) return no_edit(group_fault(part, -1, false));
-    e[1] < flat* std::min(e[0], e[2]) ? make.widen_round(part, 1, {0, 0, 0}) : make.grow(part);
+    // A shade grows from where it is held.
+    constexpr double held = 0.4;
+    e[1] < flat* std::min(e[0], e[2]) ? make.widen_round(part, 1, {0, 0, 0})
+                                      : make.grow(part, {0, facts_.held_end(part, 1, held), 0});
     return finished(make);
   }
   if (clause_.change == Change::thick && !bar && facts_.may_be_ring(part))
@@ -133,7 +136,7 @@ Meant PartMeaning::size_of(PartIndex part, const std::vector<PartIndex>& set) {
     if (*axis == 1 && clause_.change != Change::thick) {
       at[1] = facts_.stands(part) ? -1 : facts_.hangs(part) ? 1 : facts_.joined_end(part, 1);
     } else if (lengthens && set.size() == 1 && clause_.change == Change::length) {
-      at[static_cast<std::size_t>(*axis)] = facts_.joined_end(part, *axis);
+      at[static_cast<std::size_t>(*axis)] = facts_.held_end(part, *axis);
     }
     make.stretch(part, *axis, at);
   }

@@ -10,7 +10,7 @@ namespace parsel {
 namespace {
 
 constexpr std::array<const char*, 3> size_names = {"width", "height", "depth"};
-constexpr double far_end = 0.3;       ///< of a slider: amounts are scaled so that what is asked for lies within
+constexpr double far_end = 0.3;       ///< of a slider: counts are scaled so that what is asked for lies within
 constexpr double most_ratio = 4;      ///< and less is added to a length
 constexpr double least_ratio = 0.95;  ///< and less is taken off
 constexpr double farthest = 4;        ///< half-diagonals, and radians
@@ -72,9 +72,9 @@ void StatementMaker::widen_round(PartIndex part, int axis, const LocalTriple& fe
            2 * facts_.shape().parts[part].hexahedron.half_extents()[across]);
 }
 
-void StatementMaker::grow(PartIndex part) {
+void StatementMaker::grow(PartIndex part, const LocalTriple& at) {
   Statement& s = add(Op::scale_3d, part);
-  s.origin = PartPoint{s.part, {0, 0, 0}};
+  s.origin = PartPoint{s.part, at};
   measured(Quantity::ratio, part, "size", 0);
 }
 
@@ -197,9 +197,9 @@ Meant StatementMaker::finish(const std::optional<HowMuch>& how_much, bool compar
     target.x = (std::abs(*reached) + (less ? -within : within)) / slope;
     statement.amount = amount(times_x(slope, less));
   } else {
-    const int factor = std::max(1, static_cast<int>(std::ceil(std::abs(*reached) / far_end - 1e-9)));
-    target.x = std::abs(*reached) / factor;
-    statement.amount = amount(times_x(factor, less && !is_move));  // the direction of a move has its sign
+    // A steeper slider would be searched where nothing is left of narrow parts; this one goes on as far as all holds.
+    target.x = std::abs(*reached);
+    statement.amount = amount(times_x(1, less && !is_move));  // the direction of a move has its sign
   }
   if (how_much->kind == HowMuch::Kind::to && how_much->unit == HowMuch::Unit::ratio) {
     target.how_much.kind = HowMuch::Kind::times;  // "to 120 %"

@@ -19,7 +19,8 @@ class StatementMaker {
   void stretch(PartIndex part, int axis, const LocalTriple& at, const LocalTriple& feature = {0, 0, 0});
   /// Across the axis, about the middle of the feature.
   void widen_round(PartIndex part, int axis, const LocalTriple& feature);
-  void grow(PartIndex part);
+  /// In all directions; `at` stays.
+  void grow(PartIndex part, const LocalTriple& at = {0, 0, 0});
   void move(PartIndex part, const Side& to);
   /// The face on that side goes outwards.
   void move_face(PartIndex part, const Side& side);

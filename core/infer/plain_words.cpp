@@ -79,16 +79,26 @@ std::string joined(std::string_view phrase, std::size_t* count = nullptr) {
   std::string text;
   const std::vector<Token> tokens = plain_tokens(phrase);
   for (const Token& token : tokens) text += (text.empty() ? "" : " ") + token.text;
-  if (count != nullptr) *count = tokens.size();
-  return text;
+  if (count != nullptr) *count = std::max<std::size_t>(tokens.size(), 1);
+  return tokens.empty() ? std::string(phrase) : text;  // an inch mark is a token after a number alone
+}
+
+std::vector<std::string> words_in(const json& list) {
+  std::vector<std::string> out;
+  for (const json& word : list) out.push_back(joined(word.get_ref<const std::string&>()));
+  return out;
+}
+
+/// {"top": ["table"]}
+std::map<std::string, std::vector<std::string>> words_by_word(const json& lists) {
+  std::map<std::string, std::vector<std::string>> out;
+  for (const auto& [word, list] : lists.items()) out[joined(word)] = words_in(list);
+  return out;
 }
 
 std::vector<std::vector<std::string>> name_lists(const json& lists) {
   std::vector<std::vector<std::string>> out;
-  for (const json& list : lists) {
-    out.emplace_back();
-    for (const json& name : list) out.back().push_back(joined(name.get_ref<const std::string&>()));
-  }
+  for (const json& list : lists) out.push_back(words_in(list));
   return out;
 }
 
@@ -115,12 +125,14 @@ WordList read_list(const json& list) {
   add_values("lengths", WordKind::length);
   add_values("numbers", WordKind::number);
   add_values("factors", WordKind::factor);
-  for (const json& word : list.at("one")) out.one.push_back(joined(word.get_ref<const std::string&>()));
+  out.one = words_in(list.at("one"));
   out.objects = name_lists(list.at("objects"));
   out.synonyms = name_lists(list.at("synonyms"));
-  for (const auto& [name, parts] : list.at("made_of").items()) {
-    for (const json& part : parts) out.made_of[joined(name)].push_back(joined(part.get_ref<const std::string&>()));
-  }
+  out.made_of = words_by_word(list.at("made_of"));
+  out.also = words_by_word(list.at("also"));
+  out.generic = words_in(list.at("generic"));
+  out.frames = words_in(list.at("frames"));
+  out.standing = words_in(list.at("standing"));
   for (const auto& [plural, one] : list.at("singular").items())
     out.singular[joined(plural)] = joined(one.get_ref<const std::string&>());
   for (const json& ending : list.at("plural_endings"))
@@ -138,8 +150,8 @@ std::vector<std::string> WordList::singulars(const std::string& word) const {
   std::vector<std::string> out = {word};
   if (const auto known = singular.find(word); known != singular.end()) out.push_back(known->second);
   for (const auto& [ending, stands_for] : plural_endings) {
-    constexpr std::size_t shortest_stem = 3;
-    if (word.size() < ending.size() + shortest_stem || !word.ends_with(ending)) continue;
+    constexpr std::size_t shortest = 3;
+    if (word.size() + stands_for.size() < ending.size() + shortest || !word.ends_with(ending)) continue;
     out.push_back(word.substr(0, word.size() - ending.size()) + stands_for);
   }
   return out;

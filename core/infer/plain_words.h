@@ -94,6 +94,14 @@ struct WordList {
   std::vector<std::vector<std::string>> synonyms;
   /// What something is made of when no part bears its name: "back" → "post", "crest".
   std::map<std::string, std::vector<std::string>> made_of;
+  /// What a part may be called by another label alone, not the other way round: "top" → "table", of a table with legs.
+  std::map<std::string, std::vector<std::string>> also;
+  /// Nouns that say nothing beside another one: the "centre panel".
+  std::vector<std::string> generic;
+  /// What is around what it is called after: a "door frame" is no door.
+  std::vector<std::string> frames;
+  /// Nouns for what stands on the floor, whatever else is called so.
+  std::vector<std::string> standing;
   std::map<std::string, std::string> singular;
   std::vector<std::pair<std::string, std::string>> plural_endings;
 

@@ -98,6 +98,14 @@ describe('parsel job', () => {
     expect(width('wide.json') - width('shape.json')).toBeCloseTo(0.1, 5);
   });
 
+  it('stretches the slider to a size that was said beyond its end', () => {
+    write('twice.json', { model: 'chair.glb', edits: [{ request: 'make the legs 80 % longer' }] });
+    const { layers } = JSON.parse(accepted('job', 'twice.json', '-o', 'longer'));
+    expect(layers[0].value).toBeCloseTo(0.8, 6);
+    const [{ parameter }] = json('longer/program.json').layers;
+    expect(parameter.max).toBeGreaterThanOrEqual(0.8);
+  });
+
   it('finds paths from another folder', () => {
     write('elsewhere.json', { model: 'chair.glb' });
     expect(accepted('job', join(folder, 'elsewhere.json'), '--from', folder, '-o', 'from')).toContain('"chair"');

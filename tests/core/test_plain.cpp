@@ -1,7 +1,9 @@
 // Plain requests: what is taken as sure is right, what cannot be known is asked about, nothing is wrong in silence.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <set>
 
 #include "core/base/random.h"
 #include "core/infer/plain_words.h"
@@ -126,6 +128,12 @@ TEST_CASE("what may be meant is offered") {
   CHECK(words("chair", "make it nicer").empty());
 }
 
+TEST_CASE("what may be said of one thing or of two is asked about") {
+  CHECK(read("bed", "bigger and smaller pillows").reason == "it asks for more and for less");
+  CHECK(read("chair", "Sitz tiefer").words.size() == 2);  // German for lower and for deeper
+  CHECK(read("chair", "tiefer").sure);
+}
+
 TEST_CASE("an unclear reading is counted as unclear, an unsure one as split") {
   const Shape& shape = gallery_shape("chair");
   const auto outcome = [&](const char* request) { return as_inference(shape, read("chair", request)).seed.outcome; };
@@ -142,14 +150,37 @@ TEST_CASE("an unclear reading is counted as unclear, an unsure one as split") {
   CHECK(target["x"].get<double>() == doctest::Approx(0.1 / 0.43).epsilon(0.01));
 }
 
-TEST_CASE("amounts beyond the slider's usual range stretch its amount") {
-  const auto amount = [](const char* model, const char* request) {
+TEST_CASE("what a reading gives up is told: mirror images, and joints along which something slides") {
+  const Shape& shape = gallery_shape("bed");
+  const PlainReading reading = read("bed", "raise the headboard");
+  REQUIRE(reading.sure);
+  const json written = to_json(shape, reading);
+  std::set<std::string> given_up, kept;
+  for (const json& relation : written["relations"])
+    (relation["keep"].get<bool>() ? kept : given_up).insert(relation["relation"].get<std::string>());
+  const auto& disabled = written["edit"]["disabled"];
+  CHECK(given_up == std::set<std::string>(disabled.begin(), disabled.end()));
+  CHECK(std::any_of(given_up.begin(), given_up.end(),
+                    [&](const std::string& id) { return !shape.relations[*shape.find_relation(id)].is_symmetry(); }));
+  // Of joints only those that some reading gives up are listed.
+  for (const std::string& id : kept) CHECK(shape.relations[*shape.find_relation(id)].is_symmetry());
+}
+
+// A size or a move has one slider, whatever is said: steeper, its search would look where nothing is left of a part, and
+// who wants to go on past its end stretches it. Counts go in steps whose slope is fixed when the layer is made.
+TEST_CASE("a size is the slider's value itself, however far that is; a count lies within its range") {
+  const auto edit = [](const char* model, const char* request) {
     const PlainReading reading = read(model, request);
     REQUIRE(reading.sure);
-    return reading.edits[0].statements[0].amount.text() + " at " + json(reading.edits[0].target->x).dump();
+    return reading.edits[0];
   };
-  CHECK(amount("dining_table", "make the table twice as long") == "4*x at 0.25");
-  CHECK(amount("ladder", "add four rungs").starts_with("17*x at "));
+  for (const auto& [request, x] : std::vector<std::pair<const char*, double>>{
+           {"make the table 10% longer", 0.1}, {"make the table twice as long", 1}, {"half as long", 0.5}}) {
+    const PlainEdit sized = edit("dining_table", request);
+    CHECK(sized.statements[0].amount.text() == (x == 0.5 ? "-x" : "x"));
+    CHECK(sized.target->x == doctest::Approx(x).epsilon(1e-3));
+  }
+  CHECK(edit("ladder", "add four rungs").statements[0].amount.text() == "17*x");
   for (const auto& [request, pieces] :
        std::vector<std::pair<const char*, int>>{{"add four rungs", 10}, {"two rungs less", 4}, {"eight rungs", 8}}) {
     const PlainReading reading = read("ladder", request);

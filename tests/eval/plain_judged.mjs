@@ -1,11 +1,12 @@
 // Plain requests on other people's models, judged by what comes of them: predicates on the edited file (predicates.mjs),
 // written down before any request was read.
 //
-//   node tests/eval/plain_judged.mjs [--parsel TOOL] [--only TEXT] [--held-out | --all] [--list]
+//   node tests/eval/plain_judged.mjs [--parsel TOOL] [--only TEXT] [--held-out | --all | --unseen] [--list]
 //
 // Models: the gallery's, $PARSEL_DATA/furniture, and Debian's (furniture.sh: in $PARSEL_CACHE, else ~/.cache/parsel); those
-// that are not there are left out, and counted. A third of the requests is held out: it was not looked at while words and
-// rules were mended. --only: models or requests with this text.
+// that are not there are left out, and counted. A third of plain_judged.json is held out: it was not looked at while words and
+// rules were mended the first time, but was the second; plain_judged_unseen.json (--unseen) was written after that.
+// --only: models or requests with this text.
 //
 // taken    the reader is sure
 // right    of these, all predicates hold where the request says (10 cm), else at 0.2 of the slider; at its end for counts.
@@ -25,7 +26,7 @@ const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
 const text = { type: 'string' };
 const flag = { type: 'boolean' };
 const { values: options } = parseArgs({
-  options: { parsel: text, only: text, 'held-out': flag, all: flag, list: flag },
+  options: { parsel: text, only: text, 'held-out': flag, all: flag, unseen: flag, list: flag },
 });
 const builds = ['native-release', 'native-debug'].map((preset) => join(root, 'build', preset, 'core', 'parsel'));
 const tool = options.parsel ?? builds.find(existsSync);
@@ -149,8 +150,9 @@ async function verdict(model, { predicates }, { edit, plain }) {
 const counted = ['requests', 'taken', 'right', 'clean', 'asked'];
 const rows = new Map();
 const missing = new Set();
-for (const entry of JSON.parse(readFileSync(join(root, 'tests', 'eval', 'plain_judged.json'), 'utf8'))) {
-  if (!options.all && (entry.held_out ?? false) !== (options['held-out'] ?? false)) continue;
+const requests = options.unseen ? 'plain_judged_unseen.json' : 'plain_judged.json';
+for (const entry of JSON.parse(readFileSync(join(root, 'tests', 'eval', requests), 'utf8'))) {
+  if (!options.all && !options.unseen && (entry.held_out ?? false) !== (options['held-out'] ?? false)) continue;
   if (options.only && !`${entry.model}: ${entry.request}`.includes(options.only)) continue;
   const model = await open(entry.model);
   if (model === null) {

@@ -24,7 +24,7 @@ import { Hints } from './HandPanel';
 import { Icon } from './Icon';
 import { SeedList } from './SeedFields';
 import { SidesRead } from './SidesSwitch';
-import { relationWords, statementWords } from './words';
+import { givenUpWords, relationWords, statementWords } from './words';
 
 export function ReadingCard({ state }: { state: Understood }) {
   const { inference } = state.answer;
@@ -158,7 +158,7 @@ function Corrections({ state }: { state: Understood }) {
       {state.edit !== null && <Hints shape={shape} except="" chosen={hintsOf(state)} />}
       {state.edit !== null && relations.length > 0 && (
         <details open={relations.some(({ keep }) => !keep)}>
-          <summary>{keptWords(state)}</summary>
+          <summary>{givenUpWords(shape, relations, state.edit.disabled)}</summary>
           {relations.map(({ relation, words, votes, of }) => {
             const known = shape.relations.find(({ id }) => id === relation);
             const point = () => {
@@ -232,13 +232,6 @@ const hintsOf = (state: Understood) => ({
     correctEdit({ hints: Object.fromEntries(hints) });
   },
 });
-
-function keptWords({ edit, answer }: Understood): string {
-  const { relations } = answer.inference;
-  const broken = relations.filter(({ relation }) => edit?.disabled.includes(relation)).length;
-  if (broken === 0) return plural(relations.length, 'Its symmetry is kept', 'All {n} symmetries are kept');
-  return t`${broken} of ${relations.length} symmetries may break`;
-}
 
 /** What has to be said of a layer that does less than one may have hoped. */
 function effectWords({ parameter, statements }: Layer): string | null {

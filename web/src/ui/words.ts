@@ -6,6 +6,7 @@ import { parseAmount } from '../program/parse';
 import {
   type DirectionReference,
   type GroupRelation,
+  isAttachment,
   isGroup,
   type LocalTriple,
   type PointReference,
@@ -217,6 +218,27 @@ export function relationWords(document: Document, relation: ShapeRelation, from?
   }
   if (from !== undefined) return t`joined to ${other} ${t(joints[relation.kind])}`;
   return t`${a} and ${b} joined ${t(joints[relation.kind])}`;
+}
+
+/**
+ * "All 3 symmetries are kept; 2 joints may come loose".
+ * @param listed those that a request is asked about or gives up, by id
+ */
+export function givenUpWords(
+  { relations }: Shape,
+  listed: readonly { readonly relation: string }[],
+  disabled: readonly string[],
+): string {
+  const joints = new Set(relations.filter(isAttachment).map(({ id }) => id));
+  const symmetries = listed.filter(({ relation }) => !joints.has(relation)).length;
+  const givenUp = listed.filter(({ relation }) => disabled.includes(relation));
+  const loose = givenUp.filter(({ relation }) => joints.has(relation)).length;
+  const broken = givenUp.length - loose;
+  const kept = plural(symmetries, 'Its symmetry is kept', 'All {n} symmetries are kept');
+  const ofSymmetries = broken === 0 ? kept : t`${broken} of ${symmetries} symmetries may break`;
+  const ofJoints = loose === 0 ? t`All joints are kept` : plural(loose, 'A joint gives way', '{n} joints give way');
+  if (symmetries === 0) return ofJoints;
+  return loose === 0 ? ofSymmetries : `${ofSymmetries}. ${ofJoints}`;
 }
 
 /** "keeps 23 of 24 relations at every position". */
