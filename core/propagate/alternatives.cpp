@@ -110,16 +110,14 @@ class Alternatives : public Attempt {
                     options_.parameter,
                     at_,
                     solve,
-                    RelationData<std::optional<Contact>>(shape_.relations.size()),
+                    RelationData<JointContact>(shape_.relations.size()),
                     PartData<std::optional<Footing>>(shape_.parts.size()),
                     {request_.seed_parts.begin(), request_.seed_parts.end()},
                     asked_to_turn(),
                     asked_to_shift()};
     for (const RelationIndex r : shape_.relations.indices()) {
       const Relation& relation = shape_.relations[r];
-      if (!relation.is_attachment()) continue;
-      problem.contacts[r] = contact_of(shape_.parts[relation.parts[0]].hexahedron.corners,
-                                       shape_.parts[relation.parts[1]].hexahedron.corners);
+      if (relation.is_attachment()) problem.contacts[r] = contact_of_joint(shape_, relation);
     }
     for (auto [part, footing] : feet_) {
       if (restriction.feet_stay) footing.mask = Vec3::Ones();

@@ -137,13 +137,42 @@ ContactChange change_of(const Contact& contact, const Corners& first, const Corn
   return change;
 }
 
-ContactChange worst_change(const Contact& contact, const Corners& first, const Motion& of_first, const Corners& second,
-                           const Motion& of_second) {
-  ContactChange worst = change_of(contact, first + of_first.front(), second + of_second.front());
-  const ContactChange other = change_of(contact, first + of_first.back(), second + of_second.back());
-  if (std::abs(other.apart) > std::abs(worst.apart)) worst.apart = other.apart;
-  worst.lost = std::min(worst.lost, other.lost);
-  worst.hinged = worst.hinged && other.hinged;
+JointContact contact_of_joint(const Shape& shape, const Relation& attachment) {
+  const Hexahedron &first = shape.parts[attachment.parts[0]].hexahedron,
+                   &second = shape.parts[attachment.parts[1]].hexahedron;
+  JointContact contact{contact_of(first.corners, second.corners), std::nullopt};
+  const auto& points = std::get<Attachment>(attachment.detail).contact_points;
+  if (!points.empty()) contact.surfaces.emplace(points, first, second);
+  return contact;
+}
+
+namespace {
+
+std::optional<ContactChange> change_of(const JointContact& contact, const Corners& first, const Corners& second) {
+  const bool is_known = contact.boxes || (contact.surfaces && contact.surfaces->lie_against());
+  if (!is_known) return std::nullopt;
+  ContactChange change;
+  if (contact.boxes) change = change_of(*contact.boxes, first, second);
+  if (contact.surfaces) {
+    const ContactShift shift = contact.surfaces->shift(first, second);
+    if (contact.surfaces->lie_against() || !contact.boxes) change.apart = shift.apart;
+    if (!contact.boxes) change.lost = shift.lost;
+    change.stepped = shift.stepped;
+  }
+  return change;
+}
+
+}  // namespace
+
+std::optional<ContactChange> worst_change(const JointContact& contact, const Corners& first, const Motion& of_first,
+                                          const Corners& second, const Motion& of_second) {
+  auto worst = change_of(contact, first + of_first.front(), second + of_second.front());
+  const auto other = change_of(contact, first + of_first.back(), second + of_second.back());
+  if (!worst || !other) return std::nullopt;
+  if (std::abs(other->apart) > std::abs(worst->apart)) worst->apart = other->apart;
+  worst->stepped = std::max(worst->stepped, other->stepped);
+  worst->lost = std::min(worst->lost, other->lost);
+  worst->hinged = worst->hinged && other->hinged;
   return worst;
 }
 

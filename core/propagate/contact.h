@@ -3,12 +3,15 @@
 //
 // Parts are seen as their hexahedra. Two boxes meet across the axis, of either box, along which they overlap least (the
 // separating axis where they are apart). The axis is that of a face, and goes along with the box that it belongs to.
+// Where boxes run into each other and surfaces do not, as those of a cushion and its sofa, the joint's contact points
+// tell how far the parts come apart (core/shape/contact_points.h).
 #pragma once
 
 #include <array>
 #include <optional>
 
 #include "core/propagate/motion.h"
+#include "core/shape/contact_points.h"
 
 namespace parsel {
 
@@ -35,12 +38,22 @@ struct ContactChange {
   /// The parts turn about an edge of what they had in common, as a door on its hinges or a lid: off it by no more than
   /// the thickness of the thinner one, as hinges are.
   bool hinged = false;
+  double stepped = 0;  ///< the highest step between faces that were flush
 };
 ContactChange change_of(const Contact& contact, const Corners& first, const Corners& second);
+
+/// What is known of how the parts of a joint meet: by their boxes, and by their surfaces where boxes run into each
+/// other and surfaces do not. Where both are known the surfaces say how far the parts are apart.
+struct JointContact {
+  std::optional<Contact> boxes;
+  std::optional<SurfaceContact> surfaces;
+};
+JointContact contact_of_joint(const Shape& shape, const Relation& attachment);
+
 /// The worst at the two ends of the range that the search looks at; hinged when it is at both. Of what is lost, the less:
 /// what slides comes off at one end of its neighbour sooner than at the other, and there the slider ends. Corners at
-/// rest, and how they move.
-ContactChange worst_change(const Contact& contact, const Corners& first, const Motion& of_first, const Corners& second,
-                           const Motion& of_second);
+/// rest, and how they move. Nothing where nothing is known.
+std::optional<ContactChange> worst_change(const JointContact& contact, const Corners& first, const Motion& of_first,
+                                          const Corners& second, const Motion& of_second);
 
 }  // namespace parsel

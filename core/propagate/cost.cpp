@@ -79,12 +79,15 @@ double price_of_relation(const Prices& prices, const Relation& relation, double 
   }
   const std::optional<ContactChange>& change = state.contact;
   const double off = change ? std::abs(change->apart) : 0;
-  double seen = 0;
-  if (off > unseen) seen = std::min(prices.seen_most, prices.seen + prices.seen_by * (off - unseen));
+  const auto price_of_seeing = [&](double by) {
+    return by > unseen ? std::min(prices.seen_most, prices.seen + prices.seen_by * (by - unseen)) : 0;
+  };
+  const double stepped = change ? change->stepped : 0;
+  const double seen = price_of_seeing(std::max(off, stepped));
   if (residual <= exact) return residual + seen;
   if (change && off <= unseen && change->lost <= most_lost) {
     const double slides =
-        (state.is_asked_to_shift ? prices.asked_slide : prices.slide) + prices.slide_lost * change->lost;
+        (state.is_asked_to_shift ? prices.asked_slide : prices.slide) + prices.slide_lost * change->lost + seen;
     return residual <= tolerance ? std::min(slides, prices.slack * residual) : slides;
   }
   if (residual <= tolerance) return prices.slack * residual + seen;

@@ -385,15 +385,14 @@ double price_of_relations(const Problem& problem, const Edits& edits, PartIndex 
     state.is_asked_to_move = problem.seeds.count(part) > 0 || problem.seeds.count(other) > 0;
     state.is_asked_to_shift = problem.shifted.count(part) > 0 || problem.shifted.count(other) > 0;
     state.is_asked_to_turn = problem.turning.count(part) > 0 || problem.turning.count(other) > 0;
-    if (const auto& contact = problem.contacts[index]) {
-      const auto change = [&](PartIndex first, const Motion& its, PartIndex second, const Motion& others) {
-        return worst_change(*contact, shape.parts[first].hexahedron.corners, its,
-                            shape.parts[second].hexahedron.corners, others);
-      };
-      const Motion& of_other = edits[other]->motion;
-      state.contact =
-          relation.parts[0] == part ? change(part, motion, other, of_other) : change(other, of_other, part, motion);
-    }
+    const JointContact& contact = problem.contacts[index];
+    const auto change = [&](PartIndex first, const Motion& its, PartIndex second, const Motion& others) {
+      return worst_change(contact, shape.parts[first].hexahedron.corners, its, shape.parts[second].hexahedron.corners,
+                          others);
+    };
+    const Motion& of_other = edits[other]->motion;
+    state.contact =
+        relation.parts[0] == part ? change(part, motion, other, of_other) : change(other, of_other, part, motion);
     cost += price_of_relation(prices, relation, by, tolerance, state);
   }
   if (const auto& footing = problem.footings[part]) cost += price_of_footing(prices, *footing, motion);

@@ -37,7 +37,7 @@ struct Problem {
   std::string parameter;
   Samples at;
   ProposalOptions options;
-  RelationData<std::optional<Contact>> contacts;  ///< of the joints
+  RelationData<JointContact> contacts;  ///< of the joints
   PartData<std::optional<Footing>> footings;      ///< of the parts that stand on the floor
   std::set<PartIndex> seeds;                      ///< parts that were asked to do something
   std::set<PartIndex> turning;                    ///< … to turn, by a seed or a hint

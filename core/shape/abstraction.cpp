@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/shape/alike.h"
 #include "core/shape/attachment.h"
+#include "core/shape/contact_points.h"
 #include "core/shape/contacts.h"
 #include "core/shape/frame.h"
 #include "core/shape/gltf_import.h"
@@ -195,6 +196,9 @@ class Builder {
       }
     }
     regions.merge(inherited);
+    PartData<Hexahedron> boxes;
+    for (const PartIndex p : meshes_.indices()) boxes.push_back(shape_.parts[p].hexahedron);
+    ContactPointFinder contact_points(meshes_, boxes);
     for (const auto& [pair, region] : regions) {
       const auto [a, b] = pair;
       const Hexahedron &ha = shape_.parts[a].hexahedron, &hb = shape_.parts[b].hexahedron;
@@ -205,6 +209,8 @@ class Builder {
       FoundAttachment found = attach(ha, hb, region, a_in_b, b_in_a);
       if (corrected.gaping.count(pair) > 0) found.attachment.patch.reset();
       if (corrected.loose.count(pair) > 0 && firm.count(pair) == 0) found = loosened(found, ha, hb);
+      if (a.value() < meshes_.size() && b.value() < meshes_.size())
+        found.attachment.contact_points = contact_points(a, b);
       add('a', attachment_kind(found.order), {a, b}, std::move(found.attachment));
     }
   }

@@ -76,6 +76,12 @@ struct ContactPatch {
   std::array<Vec3, 4> local_a{}, local_b{};
 };
 
+/// A point in which the surfaces of two parts lie against each other.
+struct ContactPoint {
+  Vec3 point;   ///< at rest, in the normalised frame
+  Vec3 normal;  ///< unit, of the larger part's surface
+};
+
 /// parts = {a, b}; the same points seen from both.
 struct Attachment {
   std::vector<Vec3> points;   ///< 1, 2, 4 or 8 at rest, in the normalised frame
@@ -83,6 +89,8 @@ struct Attachment {
   std::vector<Vec3> local_b;  ///< … and of part b
   /// None where one part is inside the other, or in a shape of which it is not known.
   std::optional<ContactPatch> patch = std::nullopt;
+  /// Of parts whose boxes run into each other, where they do not; see core/shape/contact_points.h.
+  std::vector<ContactPoint> contact_points = {};
 };
 
 /// parts = {a}; a stands on the floor: these points keep their height. See core/shape/ground.h.

@@ -5,7 +5,7 @@
 // true; translation, "parent", "start", "end", "count", "delta", "axis", "direction", "touching" where true; rotation,
 // "parent", "centre", "axis", "parent_axis", "radius", "count", "angle", "arc"; attachments, "points", "local_a",
 // "local_b"; ground, "points", "local". Attachments may have "patch": {"centre", "normal", "half_sides", "local_a",
-// "local_b"}. A part may have "group": the id of its relation. "count", "delta", "angle" and "arc" follow from the rest
+// "local_b"} and "contact_points": [{"point", "normal"}]. A part may have "group": the id of its relation. "count", "delta", "angle" and "arc" follow from the rest
 // and are not read back.
 #include <algorithm>
 #include <cmath>
@@ -103,6 +103,20 @@ ContactPatch patch(const json& entry, const std::string& place) {
           points_of<4>(entry, "local_b", place)};
 }
 
+std::vector<ContactPoint> contact_points(const json& entry, const std::string& place) {
+  std::vector<ContactPoint> out;
+  for (const json& point : array(entry, "contact_points", place))
+    out.push_back({vector(member(point, "point", place), place), vector(member(point, "normal", place), place)});
+  return out;
+}
+
+json contact_points_json(const std::vector<ContactPoint>& points) {
+  json out = json::array();
+  for (const auto& [point, normal] : points)
+    out.push_back({{"point", vector_json(point)}, {"normal", vector_json(normal)}});
+  return out;
+}
+
 json axes_json(const Mat3& axes) {
   json out = json::array();
   for (int i = 0; i < 3; ++i) out.push_back(vector_json(axes.row(i).transpose()));
@@ -172,6 +186,7 @@ json relation_json(const Shape& shape, const Relation& relation) {
     out["local_a"] = points_json(a->local_a);
     out["local_b"] = points_json(a->local_b);
     if (a->patch) out["patch"] = patch_json(*a->patch);
+    if (!a->contact_points.empty()) out["contact_points"] = contact_points_json(a->contact_points);
   } else if (const auto* g = std::get_if<Ground>(&relation.detail)) {
     out["points"] = points_json(g->points);
     out["local"] = points_json(g->local);
@@ -265,6 +280,7 @@ class Reader {
     } else {
       Attachment a{points(entry, "points", place), points(entry, "local_a", place), points(entry, "local_b", place)};
       if (entry.contains("patch")) a.patch = patch(entry["patch"], place + "/patch");
+      if (entry.contains("contact_points")) a.contact_points = contact_points(entry, place);
       relation.detail = std::move(a);
     }
     relation_by_id_.emplace(relation.id, RelationIndex(shape_.relations.size()));

@@ -187,6 +187,10 @@ class Validator {
     }
     if (a.patch && !is_patch(*a.patch, ha, hb))
       return wrong(relation.id, "its patch is no rectangle on both its parts");
+    for (const ContactPoint& point : a.contact_points) {
+      if (!(std::abs(point.normal.norm() - 1) <= symmetry_slack))
+        return wrong(relation.id, "the normal of a contact point is no unit vector");
+    }
     return success();
   }
 

@@ -18,11 +18,18 @@ double area(const PartMesh& mesh, const Triangle& t) {
 }  // namespace
 
 std::vector<Vec3> sample_surface(const PartMesh& mesh, std::size_t count) {
+  std::vector<Vec3> points;
+  points.reserve(count);
+  for (const SurfaceSample& sample : sample_triangles(mesh, count)) points.push_back(sample.point);
+  return points;
+}
+
+std::vector<SurfaceSample> sample_triangles(const PartMesh& mesh, std::size_t count) {
   std::vector<double> cumulative;
   cumulative.reserve(mesh.triangles.size());
   double total = 0;
   for (const Triangle& t : mesh.triangles) cumulative.push_back(total += area(mesh, t));
-  std::vector<Vec3> samples;
+  std::vector<SurfaceSample> samples;
   samples.reserve(count);
   Random random(0x5eed);
   for (std::size_t i = 0; i < count; ++i) {
@@ -31,11 +38,13 @@ std::vector<Vec3> sample_surface(const PartMesh& mesh, std::size_t count) {
         static_cast<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin());
     // A surface without area (a wire) is sampled at its triangles in turn.
     if (!(total > 0)) found = i % mesh.triangles.size();
-    const Triangle& t = mesh.triangles[std::min(found, mesh.triangles.size() - 1)];
+    found = std::min(found, mesh.triangles.size() - 1);
+    const Triangle& t = mesh.triangles[found];
     double u = random.unit(), v = random.unit();
     if (u + v > 1) u = 1 - u, v = 1 - v;
     const Vec3& a = mesh.positions[t[0]];
-    samples.push_back(a + u * (mesh.positions[t[1]] - a) + v * (mesh.positions[t[2]] - a));
+    samples.push_back(
+        {a + u * (mesh.positions[t[1]] - a) + v * (mesh.positions[t[2]] - a), static_cast<std::uint32_t>(found)});
   }
   return samples;
 }
@@ -130,6 +139,22 @@ bool SurfaceGrid::near(const Vec3& point) const {
     if (distance_to_triangle(point, p0, p1, p2) <= distance_) return true;
   }
   return false;
+}
+
+std::optional<std::uint32_t> SurfaceGrid::nearest(const Vec3& point) const {
+  if ((point.array() < low_.array()).any() || (point.array() > high_.array()).any()) return std::nullopt;
+  const std::size_t c = cell(cell_of(point));
+  std::optional<std::uint32_t> best;
+  double least = distance_;
+  for (std::uint32_t i = starts_[c]; i < starts_[c + 1]; ++i) {
+    const Triangle& t = mesh_.triangles[triangles_[i]];
+    const double distance =
+        distance_to_triangle(point, mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]);
+    if (distance > least) continue;
+    least = distance;
+    best = triangles_[i];
+  }
+  return best;
 }
 
 }  // namespace parsel

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/geometry.h"
@@ -14,6 +15,13 @@ namespace parsel {
 /// `count` points spread over the surface by area, the same for the same mesh (stratified, seeded by a constant).
 std::vector<Vec3> sample_surface(const PartMesh& mesh, std::size_t count);
 
+struct SurfaceSample {
+  Vec3 point;
+  std::uint32_t triangle;
+};
+/// The same points, and the triangles that they lie on.
+std::vector<SurfaceSample> sample_triangles(const PartMesh& mesh, std::size_t count);
+
 /// A uniform grid over a mesh's triangles that answers whether a point lies within a fixed distance of the surface. The
 /// distance is to the triangles themselves, not to samples of them, so the answer does not depend on a sampling
 /// density.
@@ -22,6 +30,8 @@ class SurfaceGrid {
   /// `mesh` must outlive the grid. `distance` > 0, in the normalised frame.
   SurfaceGrid(const PartMesh& mesh, double distance);
   bool near(const Vec3& point) const;
+  /// The triangle that is nearest to the point, if one is within the distance.
+  std::optional<std::uint32_t> nearest(const Vec3& point) const;
 
  private:
   std::size_t cell(const std::array<int, 3>& at) const;
