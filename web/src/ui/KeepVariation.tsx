@@ -37,7 +37,7 @@ export function KeepVariation({ onDone, isOpened = false }: { onDone?: () => voi
           if (event.key === 'Escape') onDone?.();
         }}
       />
-      <button type="submit" class="button" disabled={typed === '' || taken || task.value !== null}>
+      <button type="submit" class="button outlined" disabled={typed === '' || taken || task.value !== null}>
         {taken ? t`Name is taken` : t`Keep as variation`}
       </button>
     </form>
