@@ -118,7 +118,7 @@ function WayChoice({ ways, now, isOff, why }: ChoiceProps & { ways: Ways; now: S
               onClick={() => models.value && !isDone && void splitModel(models.value, by, ways.fine)}
             >
               <span>{t(wayWords[by])}</span>
-              <span class="quiet">{plural(parts, '{n} part', '{n} parts')}</span>
+              <span class="quiet way-count">{plural(parts, '{n} part', '{n} parts')}</span>
             </button>
           </li>
         );
