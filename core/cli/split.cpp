@@ -64,7 +64,8 @@ const Command split_command = {
     "split",
     "MODEL.glb [--by auto|components|materials|regions] [--fine 0.5] -o OUT.glb | --ways",
     "Tells the parts of a model in one piece apart and writes each as a node of its own, geometry untouched. --fine 0 "
-    "joins what is small to what it sits on, 1 keeps every piece. --ways writes nothing: it says how many parts each way "
+    "joins what is small to what it sits on, 1 keeps every piece. --ways writes nothing: it says how many parts each "
+    "way "
     "gives.",
     {"--by", "--fine", "-o"},
     {"--ways"},
