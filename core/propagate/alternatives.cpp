@@ -112,7 +112,7 @@ class Alternatives : public Attempt {
                     solve,
                     RelationData<JointContact>(shape_.relations.size()),
                     PartData<std::optional<Footing>>(shape_.parts.size()),
-                    {request_.seed_parts.begin(), request_.seed_parts.end()},
+                    asked_to_move(),
                     asked_to_turn(),
                     asked_to_shift()};
     for (const RelationIndex r : shape_.relations.indices()) {
@@ -139,6 +139,24 @@ class Alternatives : public Attempt {
   bool is_to_move(PartIndex part) const {
     const auto hint = request_.hints.find(part);
     return hint != request_.hints.end() && hint->second != Hint::keep_fixed;
+  }
+
+  /// The seeds, and what is their mirror image side by side, or the mirror image of that: all four legs when one gets
+  /// thinner.
+  std::set<PartIndex> asked_to_move() const {
+    std::set<PartIndex> asked(request_.seed_parts.begin(), request_.seed_parts.end());
+    std::vector<PartIndex> open(asked.begin(), asked.end());
+    while (!open.empty()) {
+      const PartIndex part = open.back();
+      open.pop_back();
+      for (const RelationIndex r : graph_.relations(part)) {
+        const auto* mirror = std::get_if<Reflection>(&shape_.relations[r].detail);
+        if (mirror == nullptr || mirror->stacked) continue;
+        const PartIndex other = graph_.other(r, part);
+        if (asked.insert(other).second) open.push_back(other);
+      }
+    }
+    return asked;
   }
 
   std::set<PartIndex> asked_to_turn() const {
