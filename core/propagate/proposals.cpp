@@ -110,7 +110,7 @@ class Proposer {
     bool slightly = true;
     for (const auto& [relation, by] : residuals(constraints_, proposal.motion)) {
       const bool is_asked = shape_.relations[relation].kind == RelationKind::reflection &&
-                            problem_.seeds.count(problem_.graph.other(relation, part_)) > 0;
+                            problem_.asked.count(problem_.graph.other(relation, part_)) > 0;
       slightly = slightly && by <= (is_asked ? exact : delta_one_edited);
     }
     if (slightly) proposal.cost = std::min(proposal.cost, problem_.options.prices.slightly_off);
@@ -382,7 +382,7 @@ double price_of_relations(const Problem& problem, const Edits& edits, PartIndex 
     const PartIndex other = problem.graph.other(index, part);
     const double tolerance = tolerance_of(relation, moves, !edits[other]->steps.empty());
     RelationState state;
-    state.is_asked_to_move = problem.seeds.count(part) > 0 || problem.seeds.count(other) > 0;
+    state.is_asked_to_move = problem.asked.count(part) > 0 || problem.asked.count(other) > 0;
     state.is_asked_to_shift = problem.shifted.count(part) > 0 || problem.shifted.count(other) > 0;
     state.is_asked_to_turn = problem.turning.count(part) > 0 || problem.turning.count(other) > 0;
     const JointContact& contact = problem.contacts[index];

@@ -39,7 +39,7 @@ struct Problem {
   ProposalOptions options;
   RelationData<JointContact> contacts;        ///< of the joints
   PartData<std::optional<Footing>> footings;  ///< of the parts that stand on the floor
-  std::set<PartIndex> seeds;                  ///< parts that were asked to do something
+  std::set<PartIndex> asked;                  ///< parts that were asked to do something, and their mirror images
   std::set<PartIndex> turning;                ///< … to turn, by a seed or a hint
   std::set<PartIndex> shifted;                ///< … to move as a whole
   /// Candidates fitted so far, each once for every set of constraints: what the search costs, about a million a second.

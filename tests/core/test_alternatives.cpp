@@ -5,12 +5,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <vector>
 
 #include "box_shapes.h"
 #include "core/check/check.h"
 #include "core/edit/evaluate.h"
 #include "core/propagate/contact.h"
 #include "core/propagate/propagate.h"
+#include "tests/core/shape_fixture.h"
 
 using namespace parsel;
 using nlohmann::json;
@@ -219,6 +221,22 @@ TEST_CASE("a hint to move a part moves it as it is, and stretches nothing") {
   const Corners& rest = shape.parts[seat].hexahedron.corners;
   CHECK(state.parts[seat].col(1).maxCoeff() - state.parts[seat].col(1).minCoeff() ==
         doctest::Approx(rest.col(1).maxCoeff() - rest.col(1).minCoeff()));
+}
+
+TEST_CASE("what one of four legs is asked to do all four do, however little it is") {
+  const Shape shape = fixture::shape(fixture::table());
+  std::vector<PartIndex> legs;
+  for (const PartIndex p : shape.parts.indices()) {
+    if (shape.parts[p].label == "leg" && !shape.parts[p].is_virtual()) legs.push_back(p);
+  }
+  REQUIRE(legs.size() == 4);
+  const json thinner = {{"op", "scale_2d"},
+                        {"part", shape.parts[legs[0]].id},
+                        {"origin", {{"part", shape.parts[legs[0]].id}, {"at", {0, 0, 0}}}},
+                        {"normal", {0, 1, 0}},
+                        {"amount", "-x"}};
+  const Propagation found = run(shape, {{"seed", {thinner}}});
+  for (const PartIndex leg : legs) CHECK(moved(shape, found, leg) == doctest::Approx(moved(shape, found, legs[0])));
 }
 
 TEST_CASE("contacts: a box on another is across their common face, slides, comes off and enters") {
