@@ -1,5 +1,6 @@
 #include "core/propagate/motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/amount/amount.h"
@@ -131,6 +132,13 @@ Motion still() {
   Motion motion;
   motion.fill(Corners::Zero());
   return motion;
+}
+
+double largest_difference(const Motion& a, const Motion& b) {
+  double worst = 0;
+  for (const std::size_t s : {std::size_t{0}, sample_count - 1})
+    worst = std::max(worst, (a[s] - b[s]).cwiseAbs().maxCoeff());
+  return worst;
 }
 
 Motion motion_of(const Shape& shape, PartIndex part, const std::vector<Step>& steps) {

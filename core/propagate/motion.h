@@ -40,6 +40,8 @@ bool is_too_long(const std::vector<Step>& steps);
 using Motion = std::array<Corners, sample_count>;
 /// That of a part at rest.
 Motion still();
+/// How far apart a corner is in the two at most, at the ends of the range that the search looks at; of one coordinate.
+double largest_difference(const Motion& a, const Motion& b);
 
 /// An operator's displacement field. For an operator that is linear in its amount: displacement of every corner for
 /// amount 1. For rotate: the lever (corner − origin) of every corner that turns, zero for the others.
