@@ -155,7 +155,7 @@ std::optional<ContactChange> change_of(const JointContact& contact, const Corner
   if (contact.boxes) change = change_of(*contact.boxes, first, second);
   if (contact.surfaces) {
     const ContactShift shift = contact.surfaces->shift(first, second);
-    if (contact.surfaces->lie_against() || !contact.boxes) change.apart = shift.apart;
+    if (contact.surfaces->lie_against()) change.apart = shift.apart;
     if (!contact.boxes) change.lost = shift.lost;
     change.stepped = shift.stepped;
   }

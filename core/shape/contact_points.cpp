@@ -60,13 +60,13 @@ Mat3 edges_of(const Corners& corners) {
 /// A hexahedron as the parallelepiped of its mean edges.
 struct Parallelepiped {
   explicit Parallelepiped(const Corners& corners)
-      : centre(corners.colwise().mean().transpose()), edges(edges_of(corners)), to_local(edges.inverse()) {}
+      : centre(corners.colwise().mean().transpose()), to_local(edges_of(corners).inverse()) {}
   bool is_flat() const { return !to_local.allFinite(); }
   bool is_beyond(const Vec3& point) const {
     return ((to_local * (point - centre)).cwiseAbs().array() > 1 + beyond).any();
   }
   Vec3 centre;
-  Mat3 edges, to_local;
+  Mat3 to_local;
 };
 
 }  // namespace
