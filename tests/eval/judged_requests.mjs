@@ -9,7 +9,8 @@
 //      paper    $PARSEL_DATA/paper: part of the paper's own shapes and requests; nothing of it stands here but the replies,
 //               by the hash of their prompt
 // --json FILE writes what is printed, with the programs (paper/report.mjs and study/make.mjs draw them). --only 3,10: these
-// requests alone. --each measures every vote alone, too, and counts what of it is at fault (faults.mjs).
+// requests alone; --variants 'one go,voted': these rows of the table alone. --each measures every vote alone, too, and counts
+// what of it is at fault (faults.mjs).
 //
 // A request is met when all of its predicates hold (predicates.mjs). Where the slider stands was written down with the
 // predicates: at 0.2 (harder, nameless), or where the part that is edited has moved by 0.2 half-diagonals, for turns by 0.2 (paper);
@@ -43,6 +44,7 @@ const { values, positionals } = parseArgs({
     model: text,
     json: text,
     only: text,
+    variants: text,
     votes: { type: 'string', default: '3' },
     each: { type: 'boolean' },
   },
@@ -56,6 +58,10 @@ function die(line) {
 if (!sets.includes(set)) die('Which set: harder, paper or nameless?');
 if (!(votes >= 1 && votes <= 9)) die('--votes takes 1 to 9.');
 if (values.read && !values.model) die('--model NAME says who answered.');
+const names = ['one go', 'seed only', 'one reply', 'few calls', 'voted', 'picture', 'other reading'];
+const wanted = values.variants?.split(',') ?? names;
+const unknown = wanted.find((name) => !names.includes(name));
+if (unknown !== undefined) die(`--variants knows no "${unknown}", only ${names.join(', ')}.`);
 if (missing(set)) {
   process.stdout.write(`${missing(set)}\n`);
   process.exit(0);
@@ -185,7 +191,6 @@ async function eachVote(pair, infer, measured, good) {
   return faults;
 }
 
-const names = ['one go', 'seed only', 'one reply', 'few calls', 'voted', 'picture', 'other reading'];
 const rows = [];
 for (const pair of rendered) {
   const { index, model, name: opened, request, unclear, reading, file, shape, prompts, oneShot, pictured } = pair;
@@ -206,7 +211,7 @@ for (const pair of rendered) {
       ['few calls', few],
       ['voted', voted],
     ]) {
-      if (inference === null) continue;
+      if (inference === null || !wanted.includes(name)) continue;
       const asked = inference.seed.outcome === 'unclear' || inference.edit === null;
       row[name] = { good: asked ? 1 : 0, of: 1, unclear, why: asked ? '' : 'taken as if it were clear' };
     }
@@ -215,9 +220,9 @@ for (const pair of rendered) {
     const seed = (voted?.edit ?? reading)?.seed ?? [];
     const givenUp = (voted?.edit ?? reading)?.disabled ?? [];
     const measure = async (name, edit) => {
-      row[name] = await verdict(edit && propagated(edit, known), pair, seed, givenUp);
+      if (wanted.includes(name)) row[name] = await verdict(edit && propagated(edit, known), pair, seed, givenUp);
     };
-    if (whole) {
+    if (whole && wanted.includes('one go')) {
       const made = whole.edit && { program: programOf(shape, whole.edit.seed) };
       row['one go'] = await verdict(made, pair, seed, givenUp);
     }
@@ -229,21 +234,21 @@ for (const pair of rendered) {
     if (few) await measure('few calls', few.edit);
     if (seen) await measure('picture', seen.edit);
     if (reading) await measure('other reading', reading);
-    if (voted && row.voted.good < row.voted.of) row.blame = blame(pair, voted.edit);
+    if (row.voted && row.voted.good < row.voted.of) row.blame = blame(pair, voted.edit);
     if (values.each && voted) {
       const measured = (edit) => verdict(propagated(edit, known), pair, seed, givenUp);
       row.each = await eachVote(
         pair,
         infer,
         measured,
-        reading && row['other reading'].good === row['other reading'].of ? [reading] : [],
+        row['other reading'] && row['other reading'].good === row['other reading'].of ? [reading] : [],
       );
     }
   }
   rows.push(row);
   const cells = names.filter((name) => row[name]).map((name) => `${name} ${row[name].good}/${row[name].of}`);
   process.stdout.write(`${index} ${model}: ${request}\n    ${cells.join('  ') || 'no replies'}\n`);
-  const shown = row.voted ?? row['other reading'];
+  const shown = row.voted ?? row['other reading'] ?? row['one go'];
   if (shown?.why) process.stdout.write(`    ${row.blame ? `${row.blame}: ` : ''}${shown.why}\n`);
 }
 
