@@ -12,8 +12,7 @@ namespace parsel {
 
 namespace {
 
-/// Where the edges of what two boxes have in common end, along the outer box's axes: the inner box's ends, but along the
-/// passage those of the outer one.
+/// What they have in common ends where the inner box does, but along the passage where the outer one does.
 std::optional<Passage> passage_through(const Corners& inner, const Corners& outer) {
   const std::optional<int> axis = passage_axis(inner, outer, contact_distance);
   if (!axis) return std::nullopt;

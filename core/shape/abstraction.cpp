@@ -156,15 +156,15 @@ class Builder {
   }
 
   /// Where real parts meet, and what was declared of it.
-  std::pair<Contacts, CorrectedContacts> real_contacts(const PartData<Hexahedron>& boxes,
-                                                       ContactPointFinder& contact_points) const {
+  std::pair<Contacts, CorrectedContacts> real_contacts() const {
+    PartData<Hexahedron> boxes;
     MeasuredAxes axes;
     for (const PartIndex p : meshes_.indices()) {
+      boxes.push_back(shape_.parts[p].hexahedron);
       axes.push_back({shape_.parts[p].hexahedron.axes});
       if (const auto parent = parent_of(p)) axes[p].push_back(shape_.parts[*parent].hexahedron.axes);
     }
     Contacts contacts = find_contacts(meshes_, boxes, axes);
-    drop_apart(contacts, contact_points);
     make_alike(contacts, meshes_, boxes, axes, symmetries_);
     drop_covered(contacts, boxes);
     CorrectedContacts corrected = correct_contacts(contacts, meshes_, boxes, axes, symmetries_, declared_);
@@ -174,10 +174,7 @@ class Builder {
   /// Between real parts first; a virtual part then inherits the regions of its instances.
   void add_attachments() {
     const auto at = [](PartIndex a, PartIndex b) { return std::pair(std::min(a, b), std::max(a, b)); };
-    PartData<Hexahedron> boxes;
-    for (const PartIndex p : meshes_.indices()) boxes.push_back(shape_.parts[p].hexahedron);
-    ContactPointFinder contact_points(meshes_, boxes);
-    auto [regions, corrected] = real_contacts(boxes, contact_points);
+    auto [regions, corrected] = real_contacts();
     const auto nodes = [&](PartIndex p) {
       std::vector<PartIndex> out = {p};
       if (const auto parent = parent_of(p)) out.push_back(*parent);
@@ -199,6 +196,9 @@ class Builder {
       }
     }
     regions.merge(inherited);
+    PartData<Hexahedron> boxes;
+    for (const PartIndex p : meshes_.indices()) boxes.push_back(shape_.parts[p].hexahedron);
+    ContactPointFinder contact_points(meshes_, boxes);
     for (const auto& [pair, region] : regions) {
       const auto [a, b] = pair;
       const Hexahedron &ha = shape_.parts[a].hexahedron, &hb = shape_.parts[b].hexahedron;

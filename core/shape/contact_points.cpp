@@ -13,9 +13,6 @@ namespace {
 
 constexpr std::size_t sample_count = 400, most_points = 16;
 constexpr double facing = 0.7;  ///< cos 45°
-/// Surfaces that cross each other are seen to where points are no farther apart than this; no triangle has more rows.
-constexpr double spacing = contact_distance;
-constexpr int most_rows = 256;
 /// A point counts as lost when it is beyond the other part's box by this share of its half extent.
 constexpr double beyond = 0.05;
 
@@ -102,36 +99,6 @@ std::vector<ContactPoint> ContactPointFinder::operator()(PartIndex a, PartIndex 
     if (std::abs(normal.dot(normal_of(meshes_[small], triangle))) > facing) found.push_back({point, normal});
   }
   return spread(found);
-}
-
-bool ContactPointFinder::are_apart(PartIndex a, PartIndex b) {
-  const Corners &first = boxes_[a].corners, &second = boxes_[b].corners;
-  const bool passes = passage_axis(first, second, contact_distance) || passage_axis(second, first, contact_distance);
-  return passes && !comes_near(a, b) && !comes_near(b, a);
-}
-
-bool ContactPointFinder::comes_near(PartIndex part, PartIndex other) {
-  const PartMesh& mesh = meshes_[part];
-  const Corners& corners = boxes_[other].corners;
-  const Vec3 low = corners.colwise().minCoeff().transpose().array() - contact_distance,
-             high = corners.colwise().maxCoeff().transpose().array() + contact_distance;
-  const SurfaceGrid& surface = grid(other);
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 &p = mesh.positions[t[0]], &q = mesh.positions[t[1]], &r = mesh.positions[t[2]];
-    if ((p.cwiseMax(q).cwiseMax(r).array() < low.array()).any()) continue;
-    if ((p.cwiseMin(q).cwiseMin(r).array() > high.array()).any()) continue;
-    const Vec3 first = q - p, second = r - p;
-    const int n =
-        std::clamp(static_cast<int>(std::ceil(std::max(first.norm(), second.norm()) / spacing)), 1, most_rows);
-    for (int i = 0; i <= n; ++i) {
-      for (int k = 0; i + k <= n; ++k) {
-        const Vec3 point = p + first * i / n + second * k / n;
-        if ((point.array() >= low.array()).all() && (point.array() <= high.array()).all() && surface.near(point))
-          return true;
-      }
-    }
-  }
-  return false;
 }
 
 SurfaceContact::SurfaceContact(const std::vector<ContactPoint>& points, const Hexahedron& a, const Hexahedron& b)

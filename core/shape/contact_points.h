@@ -28,12 +28,7 @@ class ContactPointFinder {
   /// None where the boxes do not run into each other by more than contact_distance: there they tell themselves.
   std::vector<ContactPoint> operator()(PartIndex a, PartIndex b);
 
-  /// Whether one part passes through the other's box without touching it anywhere: a column through a ring.
-  bool are_apart(PartIndex a, PartIndex b);
-
  private:
-  /// Whether a point of the surface of `part` is near the other one's.
-  bool comes_near(PartIndex part, PartIndex other);
   const SurfaceGrid& grid(PartIndex part);
   const std::vector<SurfaceSample>& samples(PartIndex part);
 

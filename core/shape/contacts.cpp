@@ -150,23 +150,4 @@ Contacts find_contacts(const PartData<PartMesh>& meshes, const PartData<Hexahedr
   return contacts;
 }
 
-void drop_apart(Contacts& contacts, ContactPointFinder& surfaces) {
-  if (contacts.empty()) return;
-  std::vector<PartPair> apart;
-  PartIndex last(0);
-  for (const auto& [pair, region] : contacts) last = std::max(last, pair.second);
-  Components touching(last.value() + 1);
-  for (const auto& [pair, region] : contacts) {
-    const auto [a, b] = pair;
-    if (surfaces.are_apart(a, b)) {
-      apart.push_back(pair);
-    } else {
-      touching.join(a.value(), b.value());
-    }
-  }
-  for (const PartPair& pair : apart) {
-    if (touching.of(pair.first.value()) == touching.of(pair.second.value())) contacts.erase(pair);
-  }
-}
-
 }  // namespace parsel

@@ -16,7 +16,6 @@
 
 #include "core/base/index.h"
 #include "core/shape/attachment.h"
-#include "core/shape/contact_points.h"
 #include "core/shape/hexahedron.h"
 #include "core/shape/part.h"
 
@@ -44,9 +43,5 @@ void reduce(ContactRegion& region, const PartPair& pair, const MeasuredAxes& axe
 /// region: the one is inside the other and their surfaces do not meet. Regions are reduced to what `axes` need.
 Contacts find_contacts(const PartData<PartMesh>& meshes, const PartData<Hexahedron>& boxes, const MeasuredAxes& axes,
                        const ContactLimits& limits = {});
-
-/// Leaves out contacts of parts of which one passes through the other without touching it
-/// (ContactPointFinder::are_apart()), where parts that touch connect the two anyway.
-void drop_apart(Contacts& contacts, ContactPointFinder& surfaces);
 
 }  // namespace parsel

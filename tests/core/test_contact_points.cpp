@@ -4,7 +4,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -151,31 +150,4 @@ TEST_CASE("contact points: a sofa's frame that gets taller takes its cushion alo
   const double floor = rest.col(1).minCoeff();
   const double seat = shape.parts[cushion].hexahedron.corners.col(1).minCoeff();
   CHECK(state.parts[cushion].col(1).minCoeff() == doctest::Approx(floor + 1.3 * (seat - floor)).epsilon(0.005));
-}
-
-TEST_CASE(
-    "a ring around a column that it does not touch is joined to what carries it, and to the column only without that") {
-  const auto ring = [](double radius) {
-    return joined(
-        {box({radius, 1, 0}, {0.1, 0.1, 2 * radius + 0.1}), box({-radius, 1, 0}, {0.1, 0.1, 2 * radius + 0.1}),
-         box({0, 1, radius}, {2 * radius - 0.1, 0.1, 0.1}), box({0, 1, -radius}, {2 * radius - 0.1, 0.1, 0.1})});
-  };
-  const Named base{"base", box({0, 0.05, 0}, {1.5, 0.1, 1.5})}, column{"column", box({0, 1.1, 0}, {0.2, 2, 0.2})};
-  const Named strut{"strut", box({0.5, 0.525, 0}, {0.1, 0.85, 0.1})};
-  const auto are_joined = [](const Shape& shape, const std::string& a, const std::string& b) {
-    return std::any_of(shape.relations.begin(), shape.relations.end(), [&](const Relation& r) {
-      const auto has = [&](const std::string& id) {
-        return shape.parts[r.parts[0]].id == id || shape.parts[r.parts[1]].id == id;
-      };
-      return r.is_attachment() && has(a) && has(b);
-    });
-  };
-  const Shape carried = fixture::shape({base, column, strut, {"ring", ring(0.5)}});
-  CHECK(are_joined(carried, "ring", "strut"));
-  CHECK(!are_joined(carried, "ring", "column"));
-  CHECK(are_joined(fixture::shape({base, column, {"ring", ring(0.5)}}), "ring", "column"));
-  // One that touches the column is joined to it, whatever else carries it.
-  CHECK(are_joined(
-      fixture::shape({base, column, strut, {"ring", joined({ring(0.5), box({0.3, 1, 0}, {0.4, 0.1, 0.1})})}}), "ring",
-      "column"));
 }
