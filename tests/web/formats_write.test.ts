@@ -89,6 +89,11 @@ describe('OBJ', () => {
     );
   });
 
+  it('that never had materials gets none', async () => {
+    const { glb } = await opened({ 'a.obj': `o lamp\n${objBox(1, [0, 0, 0], [1, 1, 1])}` });
+    expect(Object.keys(filesOf(await written(glb, 'obj', 'again')))).toEqual(['again.obj']);
+  });
+
   it('keeps colours of corners', async () => {
     const colored = (color: string) => samples.ply['box.ply']?.toString().replaceAll('255 128 0', color) ?? '';
     const { glb } = await opened({ 'box.ply': colored('255 128 0') });

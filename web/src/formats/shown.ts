@@ -3,6 +3,7 @@ import { type Accessor, MathUtils, type Node, type Primitive, type Texture, type
 import type { InstancedMesh, Transform } from '@gltf-transform/extensions';
 import { triangleList, trianglesOf } from '../carve/geometry';
 import { apply, cofactors, determinant } from '../carve/matrix';
+import { plainSurface } from './model';
 import { compose, type Matrix } from './placing';
 
 /** Linear red, green and blue, and opacity; 0 to 1. */
@@ -26,7 +27,7 @@ export interface ShownPrimitive {
   readonly colors: Float64Array | null;
   /** Three corners a triangle, counter-clockwise from outside. */
   readonly triangles: Uint32Array;
-  /** Null: the plain one of glTF. */
+  /** Null: nothing is said of it. */
   readonly surface: ShownSurface | null;
 }
 
@@ -139,5 +140,11 @@ function surfaceOf(primitive: Primitive): ShownSurface | null {
     texture: material.getBaseColorTexture(),
   };
   surfaces.set(material, known);
-  return known;
+  return isPlain(known) ? null : known;
 }
+
+/** What is made for files that say nothing of surfaces (model.ts): it has no place in them now either. */
+const isPlain = ({ name, color, emissive, texture }: ShownSurface): boolean =>
+  name === '' &&
+  texture === null &&
+  [...color, ...emissive].every((value, i) => Math.abs(value - ([...plainSurface.color, 0, 0, 0][i] ?? 0)) < 1e-6);
