@@ -20,6 +20,7 @@
 #include "core/propagate/compose.h"
 #include "core/propagate/propagate.h"
 #include "core/propagate/solve.h"
+#include "core/prove/clearance.h"
 #include "core/prove/stack.h"
 #include "core/prove/together.h"
 #include "core/shape/abstraction.h"
@@ -203,6 +204,16 @@ Result<Output> extend(const Input& input) {
   if (!to.is_number()) return wrong_parameter("to", "a number");
   extend_range(model->shape, *program, layer.get<std::size_t>(), to.get<double>());
   return Output{{{"program", to_json(*program)}}, {}};
+}
+
+/// program: parsel/program v1; layer: an index.
+Result<Output> seen(const Input& input) {
+  const Result<Program> program = program_of(input);
+  if (!program.ok()) return program.error();
+  const json layer = input.parameters.value("layer", json());
+  if (!layer.is_number_unsigned() || layer.get<std::size_t>() >= program->layers.size())
+    return wrong_parameter("layer", "the index of a layer");
+  return Output{{{"faults", to_json(seen_faults(model->shape, *program, layer.get<std::size_t>()))}}, {}};
 }
 
 /// See program_of(); first: the number of the first layer that is composed onto those before it.
@@ -410,6 +421,7 @@ constexpr std::array all_methods = {
     Method{"siblings", siblings},
     Method{"compose", compose_layers},
     Method{"judge", judge},
+    Method{"seen", seen},
     Method{"gallery", gallery},
     Method{"read_plainly", read_wish_plainly},
     Method{"prompts", prompts},

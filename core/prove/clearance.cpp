@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numeric>
+#include <tuple>
 
 #include "core/base/tolerance.h"
 #include "core/prove/scope.h"
@@ -228,6 +230,32 @@ bool Clearance::accept_gaps(double x) {
     overlap = overlap || !fault.apart;
   }
   return overlap;
+}
+
+std::vector<SeenFault> seen_faults(const Shape& shape, const Program& program, std::size_t layer) {
+  const Clearance clearance(shape, program, layer, disabled_in(program.layers[layer]));
+  const Parameter& range = program.layers[layer].parameter;
+  std::set<std::tuple<PartIndex, PartIndex, bool>> known;
+  std::vector<SeenFault> seen;
+  for (int step = 1; step <= seen_steps; ++step) {
+    for (const double end : {range.min, range.max}) {
+      if (end == 0) continue;
+      const double x = end * step / seen_steps;
+      for (const Clearance::Fault& fault : clearance.faults(x)) {
+        const auto [a, b] = std::minmax(fault.a, fault.b);
+        if (known.insert({a, b, fault.apart}).second)
+          seen.push_back({shape.parts[a].id, shape.parts[b].id, fault.apart, x});
+      }
+    }
+  }
+  return seen;
+}
+
+nlohmann::json to_json(const std::vector<SeenFault>& faults) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const SeenFault& fault : faults)
+    list.push_back({{"parts", {fault.a, fault.b}}, {"apart", fault.apart}, {"x", fault.x}});
+  return list;
 }
 
 }  // namespace parsel

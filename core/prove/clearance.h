@@ -3,6 +3,7 @@
 // apart (a rung that has slid beyond the end of its stile).
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <string>
 #include <utility>
@@ -34,12 +35,19 @@ class Clearance {
   /// it at their values. `disabled`: relations that need not hold, as is_disabled() reads them (scope.h).
   Clearance(const Shape& shape, const Program& program, std::size_t layer, const std::set<std::string>& disabled);
 
-  /// The first thing that is wrong where the layer's parameter is x, a clause for people; empty when nothing is:
+  struct Fault {
+    PartIndex a, b;
+    bool apart;  ///< else they overlap
+  };
+  /// Everything that is wrong where the layer's parameter is x:
   ///   * two parts, at least one of them edited, overlap deeper than at 0 by more than seen_depth, or, if they were apart
   ///     by seen_gap at 0, by more than seen_volume;
   ///   * two parts that are joined, at least one of them edited, are apart by seen_gap more than at 0, but for those whose
   ///     joint is disabled, and those that go with such two: a door's handle leaves the frame that the door leaves.
   /// Time grows with n log n of n parts and with the pairs whose bounding boxes overlap.
+  std::vector<Fault> faults(double x) const;
+
+  /// The first of faults(), a clause for people; empty when there is none.
   std::string fault(double x) const;
 
   /// What is wrong at x is meant so, or was so from the start: those pairs are not looked at any more.
@@ -54,10 +62,6 @@ class Clearance {
     Corners corners;
     Vec3 low, high;
   };
-  struct Fault {
-    PartIndex a, b;
-    bool apart;
-  };
   std::set<RelationIndex> meant_to_part(const std::set<std::string>& disabled) const;
   std::vector<Body> bodies(const State& state) const;
   State state_at(double x) const;
@@ -65,7 +69,6 @@ class Clearance {
   bool has_changed_count(PartIndex part, const State& state) const;
   void find_overlaps(const std::vector<Body>& now, std::vector<Fault>& found) const;
   void find_gaps(const State& state, std::vector<Fault>& found) const;
-  std::vector<Fault> faults(double x) const;
 
   const Shape& shape_;
   std::size_t layer_;
@@ -77,5 +80,22 @@ class Clearance {
   State at_rest_;
   std::set<RelationIndex> meant_to_part_;  ///< joints
 };
+
+/// Steps from 0 to either end of a range at which seen_faults() looks.
+inline constexpr int seen_steps = 24;
+
+struct SeenFault {
+  std::string a, b;  ///< ids of parts, in their order
+  bool apart;        ///< else they run into each other
+  double x;          ///< of the layer's parameter: the step nearest to 0 at which it is seen
+};
+
+/// What a person sees go wrong anywhere in the layer's range, from its middle outwards; each pair at most once a kind. A
+/// joint that a program reports as broken and whose parts are not named here is one along which a part slides, grows or
+/// turns: it is held by other points than at rest, and still holds. `program` passed validate() for `shape`.
+std::vector<SeenFault> seen_faults(const Shape& shape, const Program& program, std::size_t layer);
+
+/// [{"parts": [a, b], "apart", "x"}]
+nlohmann::json to_json(const std::vector<SeenFault>& faults);
 
 }  // namespace parsel

@@ -3,9 +3,11 @@
 //
 //   node tests/eval/proposals.mjs [--settings 1000] [--json]
 //
-// Two programs differ by 1 − J(prog) (ParSEL, supplement §5.3.1): of the pairs (operator, operand). Joint settings are drawn
-// from all ranges at once, each layer as it was found alone; sound: no part inverts or collapses, and no relation breaks
-// that each layer keeps alone (core/prove/together.h). Needs the WebAssembly build (web/start.sh --build-only).
+// Clean, as the page calls it: nothing is seen to come apart or to run into each other anywhere in the range
+// (core/prove/clearance.h), and no relation breaks but joints along which a part slides, which were to stay. Two programs
+// differ by 1 − J(prog) (ParSEL, supplement §5.3.1): of the pairs (operator, operand). Joint settings are of the clean sliders
+// of a model, composed as keeping them does, and drawn from all ranges at once; sound: no part inverts or collapses, and no
+// relation breaks that each layer keeps alone (core/prove/together.h). Needs the WebAssembly build (web/start.sh --build-only).
 import { parseArgs } from 'node:util';
 import { loadCore } from '../../web/tools/core.mjs';
 import { readProposals, readRecordings, renderProposals } from '../../web/tools/prompts.mjs';
@@ -38,6 +40,12 @@ function stacked(programs) {
   return { ...programs[0], layers };
 }
 
+/** As the page judges a slider: web/src/session/faults.ts. Ids of attachments begin with an a. */
+function isClean(program) {
+  const { faults } = core('seen', { program, layer: 0 }).result;
+  return faults.length === 0 && brokenIn(program.layers[0].relations).every((id) => /^a\d/.test(id));
+}
+
 const found = [];
 for (const proposal of readProposals()) {
   const [own, ...proposed] = renderProposals(core, [proposal], recordings);
@@ -62,26 +70,28 @@ for (const proposal of readProposals()) {
       const [{ parameter, relations }] = one.program.layers;
       one.moves = parameter.min < parameter.max;
       one.broken = brokenIn(relations);
-      if (one.broken.length > 0) {
+      one.clean = one.moves && isClean(one.program);
+      if (!one.clean) {
         const hints = Object.fromEntries(Object.entries(edit.hints).filter(([, hint]) => hint !== 'keep_fixed'));
-        const [looser] = core('propagate', { edit: { ...edit, hints } }).result.program.layers;
-        one.looser = brokenIn(looser.relations).length === 0;
+        one.looser = isClean(core('propagate', { edit: { ...edit, hints } }).result.program);
       }
     } catch (error) {
       one.why = error.message;
     }
   }
   const programs = entry.proposed.flatMap(({ program, moves }) => (program && moves ? [program] : []));
+  const kept = entry.proposed.flatMap(({ program, clean }) => (clean ? [program] : []));
   const sets = programs.map(operands);
   const pairs = sets.flatMap((a, i) => sets.slice(i + 1).map((b) => similarity(a, b)));
   entry.similarity = pairs.length === 0 ? null : pairs.reduce((sum, x) => sum + x, 0) / pairs.length;
   entry.alike = pairs.filter((x) => x === 1).length;
-  if (proposal.task === 'procedural_requests' && programs.length > 0) {
+  if (proposal.task === 'procedural_requests' && kept.length > 0) {
     try {
-      const drawn = core('siblings', { program: stacked(programs), count: settings, seed: 1 }).result;
-      entry.joint = { layers: programs.length, sound: settings / (settings + drawn.rejected), reasons: drawn.reasons };
+      const { program } = core('compose', { program: stacked(kept), first: 1 }).result;
+      const drawn = core('siblings', { program, count: settings, seed: 1 }).result;
+      entry.joint = { layers: kept.length, sound: settings / (settings + drawn.rejected), reasons: drawn.reasons };
     } catch (error) {
-      entry.joint = { layers: programs.length, sound: 0, why: error.message };
+      entry.joint = { layers: kept.length, sound: 0, why: error.message };
     }
   }
   found.push(entry);
@@ -98,17 +108,16 @@ if (values.json) {
     say(`${task}: ${own.length} replies, ${all.length} proposals`);
     say(`  read ${count(({ read }) => read)}, with a slider that moves ${count(({ moves }) => moves)}`);
     say(`  … and no broken relation ${count(({ moves, broken }) => moves && broken.length === 0)}`);
-    say(
-      `  … or when parts that were to stay follow ${count(({ moves, broken, looser }) => moves && (looser || broken.length === 0))}`,
-    );
+    say(`  … or only joints that slide: clean ${count(({ clean }) => clean)}`);
+    say(`  … or when parts that were to stay follow ${count(({ clean, looser }) => clean || looser)}`);
     for (const { model, request, proposed, similarity: mean, alike, joint } of own) {
       say(
         `  ${model}${request ? `, ${request}` : ''}: J(prog) between them ${mean?.toFixed(2)}, ${alike} pairs the same`,
       );
-      for (const { request: text, why, broken, moves } of proposed) {
+      for (const { request: text, why, broken, clean, moves } of proposed) {
         if (why !== undefined) say(`    not: ${text}: ${why}`);
         else if (!moves) say(`    no room: ${text}`);
-        else if (broken.length > 0) say(`    breaks ${broken.join(', ')}: ${text}`);
+        else if (broken.length > 0) say(`    ${clean ? 'slides along' : 'breaks'} ${broken.join(', ')}: ${text}`);
       }
       if (joint !== undefined) {
         say(

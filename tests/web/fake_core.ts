@@ -122,6 +122,7 @@ export function fakeCore(): FakeCore {
     extend: async (_, program) => program,
     compose: async (_, program) => program,
     judge: async () => ({ of: 0, lost: [], settings: 0, failed: 0, failure: '', stops: [] }),
+    seen: async () => [],
     siblings: async () => ({ siblings: [], rejected: 0, reasons: [] }),
     readCad: () => Promise.reject(new Error('not here')),
     findFamily: () => Promise.reject(new Error('not here')),

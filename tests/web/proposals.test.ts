@@ -5,10 +5,12 @@ import { AskError } from '../../web/src/llm/ask_error';
 import type { Source } from '../../web/src/llm/source';
 import type { Program } from '../../web/src/program/types';
 import { emptyDocument } from '../../web/src/session/document';
+import { givingWay, type Seen } from '../../web/src/session/faults';
 import type { ModelCore } from '../../web/src/session/model_core';
 import { createProposals, isClean } from '../../web/src/session/proposals';
 import type { Asker } from '../../web/src/session/propose';
 import { createSession } from '../../web/src/session/session';
+import { twoBoxes } from './box_shapes';
 import { edit, fakeCore, moving, openModel, understood } from './fake_core';
 
 const source: Source = {
@@ -44,6 +46,8 @@ function ready(requests: readonly string[], change: Partial<Asker> = {}) {
   const kinds = () => proposals.open.value.map(({ state }) => state.kind);
   return { session, core, proposals, start, layers, kinds };
 }
+
+const seenApart: Seen = { parts: ['left', 'right'], apart: true, x: 0.1 };
 
 describe('proposals', () => {
   it('are each propagated, and all of them become layers in one step; undo brings the cards back', async () => {
@@ -132,11 +136,34 @@ describe('proposals', () => {
       ...moving('left'),
       layers: moving('left').layers.map((layer) => ({ ...layer, relations })),
     });
+    core.seen = async () => [seenApart];
     await start();
     expect(proposals.open.value[0]?.state).toMatchObject({
-      fault: { kind: 'broken', relations: ['a1'] },
+      fault: { kind: 'broken', relations: ['a1'], seen: [seenApart] },
       looser: null,
     });
+  });
+
+  it('are clean when a joint only slides, which then gives way; not when its parts are seen to come apart', async () => {
+    const { session, core, proposals, start } = ready(['left']);
+    const relations = [{ id: 'a1', status: 'broken', worst: 1, proof: 'sampled' } as const];
+    const layers = moving('left').layers.map((layer) => ({ ...layer, relations }));
+    core.answer = async () => ({ ...moving('left'), layers });
+    await start();
+    expect(proposals.open.value.filter(isClean)).toHaveLength(1);
+    proposals.keepAll();
+    const [kept] = session.document.value.layers;
+    expect(kept?.layer.relations).toEqual([{ ...relations[0], status: 'disabled' }]);
+    expect(kept && givingWay(twoBoxes, kept.layer)).toEqual(['a1']);
+    core.seen = async () => [seenApart];
+    await start();
+    expect(proposals.open.value[0]?.state).toMatchObject({
+      fault: { kind: 'broken', relations: ['a1'], seen: [seenApart] },
+    });
+    core.seen = async () => [{ ...seenApart, apart: false }];
+    core.answer = async () => moving('left');
+    await start();
+    expect(proposals.open.value[0]?.state).toMatchObject({ fault: { kind: 'broken', relations: [] } });
   });
 
   it('are composed onto each other and onto the edits that are there when they are kept', async () => {
@@ -182,6 +209,7 @@ describe('proposals', () => {
     const whole = moving('left');
     core.answer = async ({ hints }) =>
       'right' in hints ? { ...whole, layers: whole.layers.map((layer) => ({ ...layer, relations })) } : moving('right');
+    core.seen = async (_, { layers }) => (layers[0]?.relations.length ? [seenApart] : []);
     await start();
     expect(proposals.open.value.filter(isClean)).toEqual([]);
     proposals.loosen(proposals.open.value[0]?.key ?? 0);

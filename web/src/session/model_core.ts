@@ -61,6 +61,8 @@ export interface ModelCore {
   compose(model: OpenModel, program: Program, first: number): Promise<Program>;
   /** What the layers keep together of what each keeps alone, and how far each slider may go now. */
   judge(model: OpenModel, program: Program): Promise<MethodResult<'judge'>>;
+  /** What a person sees go wrong over the range of a layer. */
+  seen(model: OpenModel, program: Program, layer: number): Promise<MethodResult<'seen'>['faults']>;
   /** The model's file with the program applied. */
   apply(model: OpenModel, program: Program, options: ExportOptions): Promise<Exported>;
   /** What a request means, read without a language model. `mentioned` as below. */
@@ -175,6 +177,9 @@ export function modelCore(client: Calls): ModelCore {
     },
     async judge(model, program) {
       return (await client.call('judge', { program }, { needs: stateOf(model) })).result;
+    },
+    async seen(model, program, layer) {
+      return (await client.call('seen', { program, layer }, { needs: stateOf(model) })).result.faults;
     },
     async readPlainly(model, request, mentioned) {
       const needs = stateOf(model);

@@ -5,6 +5,7 @@ import { batch, computed, type ReadonlySignal, signal } from '@preact/signals';
 import type { Layer } from '../program/types';
 import { t } from '../texts/texts';
 import { type EditInput, type LayerEntry, type OpenModel, withFreshParameters, withRequest } from './document';
+import { type Fault, lookedAt, sameAs } from './faults';
 import { madeBy } from './layers';
 import type { ModelCore, Propagation } from './model_core';
 import {
@@ -19,13 +20,6 @@ import {
 } from './propose';
 import type { Session } from './session';
 import { type Failed, failureOf, sentence } from './tasks';
-
-/** Why a slider is not clean. */
-export type Fault =
-  | { readonly kind: 'still' }
-  /** Ids of relations that break although nobody asked for it. */
-  | { readonly kind: 'broken'; readonly relations: readonly string[] }
-  | { readonly kind: 'same'; readonly as: string };
 
 export interface Found {
   readonly kind: 'found';
@@ -97,9 +91,6 @@ export interface Proposals {
   standing(key: number): number;
 }
 
-/** A range below this moves nothing. */
-const leastRange = 1e-6;
-
 export function createProposals({ session, models, askerOf }: ProposalsParts): Proposals {
   const { document, draft } = session;
   const state = signal<Asked | null>(null);
@@ -128,10 +119,11 @@ export function createProposals({ session, models, askerOf }: ProposalsParts): P
       const { edit, why, calls, tokens } = await readProposal(core, model, request, asker.reader, signal);
       change(stop, ({ spent }) => ({ spent: plus(spent, { calls, tokens }) }));
       if (edit === null) return changeOne(stop, key, { state: { kind: 'refused', text: sentence(new Error(why)) } });
-      const found = await core.propagate(model, edit, { signal });
-      const others = state.peek()?.proposals ?? [];
-      const fault = faultOf(found, others);
-      const looser = fault?.kind === 'broken' ? await findLooser(core, model, edit, signal) : null;
+      const propagated = await core.propagate(model, edit, { signal });
+      const looked = await lookedAt(core, model, propagated);
+      const { found } = looked;
+      const looser = looked.fault?.kind === 'broken' ? await findLooser(core, model, edit, signal) : null;
+      const fault = looked.fault ?? sameAs(found, foundBefore());
       changeOne(stop, key, { state: { kind: 'found', found, fault, looser } });
     } catch (error) {
       if (signal.aborted) return;
@@ -195,6 +187,10 @@ export function createProposals({ session, models, askerOf }: ProposalsParts): P
     const now = state.peek();
     if (now !== null) state.value = { ...now, proposals: next(now.proposals) };
   };
+  const foundBefore = () =>
+    (state.peek()?.proposals ?? []).flatMap(({ request, state: now }) =>
+      now.kind === 'found' ? [{ request, found: now.found }] : [],
+    );
   const foundOf = (key: number): { one: Proposal; found: Propagation } | null => {
     const one = open.peek().find((other) => other.key === key);
     return one?.state.kind === 'found' ? { one, found: one.state.found } : null;
@@ -342,21 +338,9 @@ async function findLooser(
 ): Promise<Propagation | null> {
   const hints = Object.fromEntries(Object.entries(edit.hints).filter(([, hint]) => hint !== 'keep_fixed'));
   if (Object.keys(hints).length === Object.keys(edit.hints).length) return null;
-  const found = await core.propagate(model, { ...edit, hints }, { signal });
-  return faultOf(found, []) === null ? found : null;
-}
-
-/** What is wrong with a slider. */
-function faultOf({ program }: Propagation, others: readonly Proposal[]): Fault | null {
-  const [layer] = program.layers;
-  if (layer === undefined || layer.parameter.max - layer.parameter.min < leastRange) return { kind: 'still' };
-  const relations = layer.relations.filter(({ status }) => status === 'broken').map(({ id }) => id);
-  if (relations.length > 0) return { kind: 'broken', relations };
-  const doing = (found: Propagation) =>
-    JSON.stringify(found.program.layers[0]?.statements.map(({ why: _, ...rest }) => rest));
-  const own = doing({ program });
-  const same = others.find(({ state }) => state.kind === 'found' && doing(state.found) === own);
-  return same === undefined ? null : { kind: 'same', as: same.request };
+  const looser = await core.propagate(model, { ...edit, hints }, { signal });
+  const { found, fault } = await lookedAt(core, model, looser);
+  return fault === null ? found : null;
 }
 
 /** A program of one layer with its slider at a value. */

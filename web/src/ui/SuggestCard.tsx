@@ -3,14 +3,15 @@
 
 import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
-import type { Layer } from '../program/types';
-import type { OpenModel } from '../session/document';
+import type { Layer, Shape } from '../program/types';
+import { nameOf, type OpenModel } from '../session/document';
+import { type Fault, givingWay } from '../session/faults';
 import { formatMeasure, larger, measureOf, readAt } from '../session/measure';
 import { playOnce } from '../session/play';
-import type { Fault, Proposal } from '../session/proposals';
+import type { Proposal } from '../session/proposals';
 import { document } from '../session/session';
 import { suggestions } from '../session/suggestions';
-import { m, number, t } from '../texts/texts';
+import { m, number, plural, t } from '../texts/texts';
 import { Icon } from './Icon';
 import { Menu } from './Menu';
 import { evaluatorOf, strip, strips } from './pictures';
@@ -52,6 +53,9 @@ export function SuggestCard({ model, proposal, first, last, isRunning }: CardPro
       {state.kind === 'stopped' && <p class="quiet">{t`Not read: it was stopped.`}</p>}
       {state.kind === 'refused' && <Warning text={t`No slider came of it. ${state.text}`} />}
       {layer !== undefined && moves && <Moves model={model} proposal={proposal} layer={layer} />}
+      {state.kind === 'found' && state.fault === null && layer !== undefined && (
+        <GivingWay shape={model.shape} layer={layer} />
+      )}
       {state.kind === 'found' && state.fault !== null && <Warning text={faultWords(model, state.fault)} />}
       {state.kind !== 'reading' && (
         <div class="row wrap">
@@ -133,13 +137,44 @@ export function faultWords({ shape }: OpenModel, fault: Fault): string {
     case 'same':
       return t`It does the same as “${fault.as}”`;
     case 'broken': {
-      const words = fault.relations.flatMap((id) => {
-        const relation = shape.relations.find((one) => one.id === id);
-        return relation === undefined ? [] : [relationWords(document.value, relation)];
-      });
-      return t`Not kept on the way: ${listWords(words)}.`;
+      const of = (wanted: boolean) =>
+        fault.seen
+          .filter(({ apart }) => apart === wanted)
+          .map(({ parts: [a, b] }) => t`${nameOf(document.value, a)} and ${nameOf(document.value, b)}`);
+      const [apart, together] = [of(true), of(false)];
+      return [
+        fault.relations.length > 0 && t`Not kept on the way: ${listWords(relationsInWords(shape, fault.relations))}.`,
+        apart.length > 0 && t`On the way these come apart: ${listWords(apart)}.`,
+        together.length > 0 && t`On the way these run into each other: ${listWords(together)}.`,
+      ]
+        .filter(Boolean)
+        .join(' ');
     }
   }
+}
+
+const relationsInWords = ({ relations }: Shape, ids: readonly string[]) =>
+  ids.flatMap((id) => {
+    const relation = relations.find((one) => one.id === id);
+    return relation === undefined ? [] : [relationWords(document.value, relation)];
+  });
+
+/** The joints that a slider lets slide, to be unfolded. */
+function GivingWay({ shape, layer }: { shape: Shape; layer: Layer }) {
+  const words = relationsInWords(shape, givingWay(shape, layer));
+  if (words.length === 0) return null;
+  return (
+    <details class="quiet">
+      <summary>
+        {plural(words.length, 'A joint gives way', '{n} joints give way')}: {t`the parts slide along each other`}
+      </summary>
+      <ul>
+        {words.map((text) => (
+          <li key={text}>{text}</li>
+        ))}
+      </ul>
+    </details>
+  );
 }
 
 const ends = [m`least@end`, m`as it is`, m`most@end`] as const;

@@ -275,6 +275,16 @@ const coreMethods = {
       ),
     }),
   },
+  /**
+   * What a person sees go wrong over a layer's range, whatever its relations say: parts that touched and come apart, or that
+   * run into each other, and at which value first (core/prove/clearance.h).
+   */
+  seen: {
+    parameters: v.strictObject({ program: v.unknown(), layer: v.number() }),
+    result: v.strictObject({
+      faults: v.array(v.strictObject({ parts: v.tuple([v.string(), v.string()]), apart: v.boolean(), x: v.number() })),
+    }),
+  },
   /** Every model of the gallery: entries of gallery.json, and one GLB each as buffers. */
   gallery: {
     parameters: v.strictObject({}),
