@@ -22,14 +22,6 @@ Frame3 face_normals(const Corners& corners) {
   return axes_of(corners).normals;
 }
 
-/// The weights of a point in a box at rest.
-Weights weights_in(const Corners& box, const Vec3& point) {
-  Mat3 halves;  // half the edges, as columns
-  for (int axis = 0; axis < 3; ++axis) halves.col(axis) = (box.row(1 << axis) - box.row(0)).transpose() / 2;
-  const Vec3 centre = box.colwise().mean().transpose();
-  return trilinear_weights(halves.fullPivLu().solve(point - centre));
-}
-
 Mat3 as_columns(const Frame3& normals) {
   Mat3 columns;
   for (int axis = 0; axis < 3; ++axis) columns.col(axis) = normals[static_cast<std::size_t>(axis)];
@@ -140,23 +132,29 @@ ContactChange change_of(const Contact& contact, const Corners& first, const Corn
 JointContact contact_of_joint(const Shape& shape, const Relation& attachment) {
   const Hexahedron &first = shape.parts[attachment.parts[0]].hexahedron,
                    &second = shape.parts[attachment.parts[1]].hexahedron;
-  JointContact contact{contact_of(first.corners, second.corners), std::nullopt};
+  JointContact contact{contact_of(first.corners, second.corners), std::nullopt, std::nullopt};
   const auto& points = std::get<Attachment>(attachment.detail).contact_points;
   if (!points.empty()) contact.surfaces.emplace(points, first, second);
+  if (!contact.boxes) contact.passage = passage_of(first.corners, second.corners);
   return contact;
 }
 
 namespace {
 
 std::optional<ContactChange> change_of(const JointContact& contact, const Corners& first, const Corners& second) {
-  const bool is_known = contact.boxes || (contact.surfaces && contact.surfaces->lie_against());
+  const bool is_known = contact.boxes || contact.passage || (contact.surfaces && contact.surfaces->lie_against());
   if (!is_known) return std::nullopt;
   ContactChange change;
   if (contact.boxes) change = change_of(*contact.boxes, first, second);
+  if (contact.passage) {
+    const PassageChange through = change_of(*contact.passage, first, second);
+    change.apart = through.apart;
+    change.lost = through.lost;
+  }
   if (contact.surfaces) {
     const ContactShift shift = contact.surfaces->shift(first, second);
     if (contact.surfaces->lie_against()) change.apart = shift.apart;
-    if (!contact.boxes) change.lost = shift.lost;
+    if (!contact.boxes && !contact.passage) change.lost = shift.lost;
     change.stepped = shift.stepped;
   }
   return change;

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "core/propagate/motion.h"
+#include "core/propagate/passage.h"
 #include "core/shape/contact_points.h"
 
 namespace parsel {
@@ -47,6 +48,7 @@ ContactChange change_of(const Contact& contact, const Corners& first, const Corn
 struct JointContact {
   std::optional<Contact> boxes;
   std::optional<SurfaceContact> surfaces;
+  std::optional<Passage> passage;  ///< where no face of the boxes can be told to touch
 };
 JointContact contact_of_joint(const Shape& shape, const Relation& attachment);
 

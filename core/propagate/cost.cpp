@@ -9,7 +9,7 @@ namespace parsel {
 
 namespace {
 
-/// A part that is stretched by more than this factor is distorted: legs five times as thick are no legs.
+/// A part that is stretched by more than this factor is distorted.
 constexpr double largest_stretch = 2.5;
 constexpr double distorted = 3;
 /// Of an axis as long as the part, and on top for one that is thin beside it: legs get longer before they get thicker.
@@ -63,6 +63,13 @@ double price_of_strain(const Corners& rest, const Corners& deformed) {
     if (change > std::log(largest_stretch)) price += distorted;
   }
   return price;
+}
+
+bool is_distorted(const Corners& rest, const Corners& deformed) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (largest_change(rest, deformed, axis) > std::log(largest_stretch)) return true;
+  }
+  return false;
 }
 
 double price_of_relation(const Prices& prices, const Relation& relation, double residual, double tolerance,

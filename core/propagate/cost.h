@@ -70,6 +70,10 @@ double price_of_kind(const Prices& prices, const Candidate& candidate, bool fill
 /// legs get longer rather than thicker. `deformed` at an end of the range.
 double price_of_strain(const Corners& rest, const Corners& deformed);
 
+/// Whether an edge has become so much longer or shorter that the part is not what it was: legs five times as thick are no
+/// legs.
+bool is_distorted(const Corners& rest, const Corners& deformed);
+
 /// What is known of a relation beside its points.
 struct RelationState {
   std::optional<ContactChange> contact;  ///< of a joint: what became of it

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <tuple>
 
+#include "core/propagate/cost.h"
 #include "core/propagate/layer_writer.h"
 #include "core/propagate/seeds.h"
 #include "core/propagate/solve_part.h"
 #include "core/propagate/transfer.h"
+#include "core/propagate/urgency.h"
 #include "core/prove/slack.h"
 
 namespace parsel {
@@ -19,24 +20,6 @@ namespace {
 /// clock: the same input must give the same program everywhere.
 constexpr int revision_cost = 100'000;
 constexpr int most_revision_runs = 40;
-/// A part that follows an edit at the ends of a slider and changes an edge by more than this factor is distorted.
-constexpr double largest_stretch = 2.5;
-
-/// By how much the edge that changes most has become longer, or shorter, as a factor of at least 1.
-double stretch(const Corners& rest, const Corners& deformed) {
-  double most = 1;
-  for (int k = 0; k < 8; ++k) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const int other = k ^ (1 << axis);
-      if (other < k) continue;
-      const double before = (rest.row(other) - rest.row(k)).norm(),
-                   after = (deformed.row(other) - deformed.row(k)).norm();
-      most = std::max({most, after / before, before / std::max(after, noise)});
-    }
-  }
-  return most;
-}
-
 /// Hints that nobody gave: what the search does otherwise after it has seen where its first choices lead.
 using Revisions = std::map<PartIndex, Hint>;
 
@@ -104,7 +87,7 @@ class Loop : public Attempt {
         continue;
       const Corners& rest = shape_.parts[part].hexahedron.corners;
       const auto& motion = edits_[part]->motion;
-      if (std::max(stretch(rest, rest + motion.front()), stretch(rest, rest + motion.back())) > largest_stretch)
+      if (is_distorted(rest, rest + motion.front()) || is_distorted(rest, rest + motion.back()))
         distorted.push_back(part);
     }
     return distorted;
@@ -213,38 +196,21 @@ class Loop : public Attempt {
     }
   }
 
-  /// The unedited part with the most broken relations; one with a broken symmetry before any without, then one
-  /// with a hint.
   std::optional<PartIndex> next_part() const {
     std::optional<PartIndex> best;
-    using Urgency = std::tuple<bool, bool, int>;  // as in search.cpp
-    Urgency most{false, false, 0};
+    Urgency most;
     for (const PartIndex part : graph_.parts()) {
       if (edits_[part] ||
           std::find(left_alone_.begin(), left_alone_.end(), std::pair(part, pulls_[part].size())) != left_alone_.end())
         continue;
-      bool mirror = false;
-      int count = 0;
-      for (const auto& [relation, by] : residuals(pulls_[part], still())) {
-        if (by <= exact) continue;
-        mirror = mirror || is_side_by_side(relation);
-        ++count;
-      }
-      if (count == 0) continue;
-      const Urgency broken{mirror, request_.hints.count(part) > 0, count};
-      if (!best || broken > most || (broken == most && id(part) < id(*best))) {
+      const Urgency urgency = urgency_of(shape_, pulls_[part], request_.hints.count(part) > 0);
+      if (urgency.broken == 0) continue;
+      if (!best || urgency > most || (urgency == most && id(part) < id(*best))) {
         best = part;
-        most = broken;
+        most = urgency;
       }
     }
     return best;
-  }
-
-  /// A symmetry, but for mirror images one above the other: what stands on the floor grows away from it, and its upper
-  /// half is seldom asked to do the opposite of the lower one.
-  bool is_side_by_side(RelationIndex relation) const {
-    const auto* mirror = std::get_if<Reflection>(&shape_.relations[relation].detail);
-    return shape_.relations[relation].is_symmetry() && !(mirror != nullptr && std::abs(mirror->normal.y()) > 0.5);
   }
 
   void edit_part(PartIndex part) {

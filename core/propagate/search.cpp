@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "core/base/tolerance.h"
+#include "core/propagate/urgency.h"
 
 namespace parsel {
 
 namespace {
 
 using Pulls = std::vector<PointConstraint>;
-
-/// A broken mirror image side by side; a hint says what the part is to do; number of broken relations.
-using Urgency = std::tuple<bool, bool, int>;
 
 struct LeftAlone {
   std::size_t pulls = 0;  ///< constraints seen
@@ -103,28 +100,16 @@ class Beam {
       if (state.edits[other]) continue;
       auto pulls = state.pulls[other] ? std::make_shared<Pulls>(*state.pulls[other]) : std::make_shared<Pulls>();
       add_constraints(problem_.graph, relation, other, state.edits, *pulls);
-      bool mirror = false;
-      int broken = 0;
-      for (const auto& [index, by] : residuals(*pulls, still())) {
-        if (by <= exact) continue;
-        mirror = mirror || is_side_by_side(index);
-        ++broken;
-      }
-      state.urgency[other] = {mirror, hints_.count(other) > 0, broken};
+      state.urgency[other] = urgency_of(shape_, *pulls, hints_.count(other) > 0);
       state.pulls[other] = std::move(pulls);
     }
-  }
-
-  bool is_side_by_side(RelationIndex index) const {
-    const auto* mirror = std::get_if<Reflection>(&shape_.relations[index].detail);
-    return mirror != nullptr && std::abs(mirror->normal.y()) <= 0.5;
   }
 
   std::optional<PartIndex> next_part(const State& state) const {
     std::optional<PartIndex> best;
     for (const PartIndex part : problem_.graph.parts()) {
       const Urgency& urgency = state.urgency[part];
-      if (state.edits[part] || std::get<int>(urgency) == 0) continue;
+      if (state.edits[part] || urgency.broken == 0) continue;
       const auto alone = state.left_alone.find(part);
       if (alone != state.left_alone.end() && alone->second.pulls == state.pulls[part]->size()) continue;
       if (!best || urgency > state.urgency[*best] ||

@@ -1,6 +1,7 @@
 #include "core/prove/clearance.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +19,19 @@ namespace {
 
 /// Cross products of edges shorter than this have no direction.
 constexpr double parallel = 1e-6;
+
+/// Where the layer's parameter is looked at to see which parts go with which.
+constexpr double looked_at = 0.1;
+/// Corners that are carried along are where the other part's motion takes them within this; half-diagonals.
+constexpr double carried = 1e-6;
+
+/// Whether the affine motion that takes the corners `leader` to `leader_now` takes `part` to `part_now`.
+bool goes_along(const Corners& leader, const Corners& leader_now, const Corners& part, const Corners& part_now) {
+  const Eigen::Matrix<double, 8, 4> from = leader.rowwise().homogeneous(), to = part.rowwise().homogeneous();
+  const Eigen::Matrix<double, 4, 3> motion = from.colPivHouseholderQr().solve(leader_now);
+  return (from * motion - leader_now).cwiseAbs().maxCoeff() <= carried &&
+         (to * motion - part_now).cwiseAbs().maxCoeff() <= carried;
+}
 
 /// What two boxes have in common, or what lies between them.
 struct Overlap {
@@ -75,13 +89,36 @@ double surfaces_apart(const ContactPatch& patch, const Corners& a, const Corners
 
 }  // namespace
 
-Clearance::Clearance(const Shape& shape, const Program& program, std::size_t layer)
+Clearance::Clearance(const Shape& shape, const Program& program, std::size_t layer,
+                     const std::set<std::string>& disabled)
     : shape_(shape), layer_(layer), evaluator_(program, shape) {
   for (const Layer& l : program.layers) values_.push_back(l.parameter.value);
   const Scope scope = scope_of(shape, program, layer, {});
   edited_ = scope.edited;
   dissolved_ = scope.dissolved;
   at_rest_ = state_at(0);
+  meant_to_part_ = meant_to_part(disabled);
+}
+
+std::set<RelationIndex> Clearance::meant_to_part(const std::set<std::string>& disabled) const {
+  std::set<RelationIndex> parting;
+  const State moved = state_at(looked_at);
+  for (const RelationIndex r : shape_.relations.indices()) {
+    const Relation& loose = shape_.relations[r];
+    if (!loose.is_attachment() || !is_disabled(loose, disabled)) continue;
+    const auto goes_with = [&](std::size_t end, PartIndex part) {
+      const PartIndex leader = loose.parts[end];
+      return part == leader ||
+             goes_along(at_rest_.parts[leader], moved.parts[leader], at_rest_.parts[part], moved.parts[part]);
+    };
+    for (const RelationIndex other : shape_.relations.indices()) {
+      const Relation& joint = shape_.relations[other];
+      if (!joint.is_attachment()) continue;
+      const PartIndex a = joint.parts[0], b = joint.parts[1];
+      if ((goes_with(0, a) && goes_with(1, b)) || (goes_with(0, b) && goes_with(1, a))) parting.insert(other);
+    }
+  }
+  return parting;
 }
 
 State Clearance::state_at(double x) const {
@@ -145,8 +182,9 @@ void Clearance::find_overlaps(const std::vector<Body>& now, std::vector<Fault>& 
 }
 
 void Clearance::find_gaps(const State& state, std::vector<Fault>& found) const {
-  for (const Relation& relation : shape_.relations) {
-    if (!relation.is_attachment()) continue;
+  for (const RelationIndex r : shape_.relations.indices()) {
+    const Relation& relation = shape_.relations[r];
+    if (!relation.is_attachment() || meant_to_part_.count(r) > 0) continue;
     const PartIndex a = relation.parts[0], b = relation.parts[1];
     if (shape_.parts[a].is_virtual() || shape_.parts[b].is_virtual()) continue;
     if (edited_.count(a) == 0 && edited_.count(b) == 0) continue;
@@ -179,10 +217,14 @@ std::string Clearance::fault(double x) const {
   return first + " and " + second + (found[0].apart ? " would come apart" : " would run into each other");
 }
 
-bool Clearance::accept(double x) {
+void Clearance::accept(double x) {
+  for (const Fault& fault : faults(x)) accepted_.insert(std::minmax(fault.a, fault.b));
+}
+
+bool Clearance::accept_gaps(double x) {
   bool overlap = false;
   for (const Fault& fault : faults(x)) {
-    accepted_.insert(std::minmax(fault.a, fault.b));
+    if (fault.apart) accepted_.insert(std::minmax(fault.a, fault.b));
     overlap = overlap || !fault.apart;
   }
   return overlap;

@@ -31,19 +31,21 @@ inline constexpr double seen_volume = 2e-5;
 class Clearance {
  public:
   /// `program` passed validate() for `shape`, which must live as long. Layers up to `layer` are applied, those before
-  /// it at their values.
-  Clearance(const Shape& shape, const Program& program, std::size_t layer);
+  /// it at their values. `disabled`: relations that need not hold, as is_disabled() reads them (scope.h).
+  Clearance(const Shape& shape, const Program& program, std::size_t layer, const std::set<std::string>& disabled);
 
   /// The first thing that is wrong where the layer's parameter is x, a clause for people; empty when nothing is:
   ///   * two parts, at least one of them edited, overlap deeper than at 0 by more than seen_depth, or, if they were apart
   ///     by seen_gap at 0, by more than seen_volume;
-  ///   * two parts that are joined, at least one of them edited, are apart by seen_gap more than at 0.
+  ///   * two parts that are joined, at least one of them edited, are apart by seen_gap more than at 0, but for those whose
+  ///     joint is disabled, and those that go with such two: a door's handle leaves the frame that the door leaves.
   /// Time grows with n log n of n parts and with the pairs whose bounding boxes overlap.
   std::string fault(double x) const;
 
-  /// What is wrong at x is meant so, or was so from the start: those pairs are not looked at any more. Whether some of
-  /// them run into each other.
-  bool accept(double x);
+  /// What is wrong at x is meant so, or was so from the start: those pairs are not looked at any more.
+  void accept(double x);
+  /// The same of parts that come apart. Whether there are others, which run into each other.
+  bool accept_gaps(double x);
 
  private:
   struct Body {
@@ -56,6 +58,7 @@ class Clearance {
     PartIndex a, b;
     bool apart;
   };
+  std::set<RelationIndex> meant_to_part(const std::set<std::string>& disabled) const;
   std::vector<Body> bodies(const State& state) const;
   State state_at(double x) const;
   bool is_instance(PartIndex part) const;
@@ -72,6 +75,7 @@ class Clearance {
   std::set<std::pair<PartIndex, PartIndex>> accepted_;
   std::vector<RelationIndex> dissolved_;
   State at_rest_;
+  std::set<RelationIndex> meant_to_part_;  ///< joints
 };
 
 }  // namespace parsel

@@ -96,15 +96,30 @@ class Extension {
   }
 
  private:
-  /// Ends the range where something is seen to go wrong. What is so from the start, as when a handle is pulled off, ends
-  /// nothing; a side on which parts run into each other from the start goes no farther than the search looked.
+  /// Ends the range where something is seen to go wrong. Parts that come apart from the start, as when a handle is pulled
+  /// off, end nothing. Parts that run into each other from the start end that side where they do; but when they do so on
+  /// both sides, a side goes as far as the search looked.
   void cut_where_seen(Range& range, double least) const {
+    const auto is_tight = [&](double side) {
+      return Clearance(shape_, program_, layer_, disabled_).accept_gaps(side * least_seen);
+    };
+    const bool is_tight_below = is_tight(-1), is_tight_above = is_tight(1);
     const auto end_of = [&](double side, RangeEnd end) {
-      if (std::abs(end.x) <= least_seen) return end;
-      Clearance clearance(shape_, program_, layer_);
-      const std::string reason = clearance.fault(side * least_seen);
-      if (clearance.accept(side * least_seen) && std::abs(end.x) > least) end = {side * least, reason};
-      return cut(side * least_seen, end, [&](double x) { return clearance.fault(x); });
+      const bool tight = side < 0 ? is_tight_below : is_tight_above;
+      if (!tight && std::abs(end.x) <= least_seen) return end;
+      Clearance clearance(shape_, program_, layer_, disabled_);
+      double start = side * least_seen;
+      if (!tight) {
+        clearance.accept(start);
+      } else if (is_tight_below && is_tight_above) {
+        const std::string reason = clearance.fault(start);
+        clearance.accept(start);
+        if (std::abs(end.x) > least) end = {side * least, reason};
+      } else {
+        clearance.accept_gaps(start);
+        start = 0;
+      }
+      return cut(start, end, [&](double x) { return clearance.fault(x); });
     };
     const RangeEnd low = end_of(-1, {range.min, range.min_reason});
     const RangeEnd high = end_of(1, {range.max, range.max_reason});

@@ -22,8 +22,8 @@ struct SliderReach {
 };
 
 /// The widest range of the layer's parameter that find_range() finds within [low, high], in which no parts are seen to run
-/// into each other or to come apart (clearance.h; where they do so within ±0.1 already, parts that come apart end nothing,
-/// and parts that run into each other end that side at ±`least`), and on which, beyond ±`least`,
+/// into each other or to come apart (clearance.h; parts that come apart within ±0.1 already end nothing; where parts run
+/// into each other so early on both sides, both go on to ±`least`), and on which, beyond ±`least`,
 ///   * every relation that holds within ±`least` is off by no more than there or clean_drift, and holds, certified if
 ///     it is there.
 /// The joints of instances of a group, which slide along their neighbours where the row spreads, may use all of their

@@ -1,8 +1,10 @@
 #include "core/shape/hexahedron_extent.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <limits>
+
+#include "core/shape/hexahedron.h"
 
 namespace parsel {
 
@@ -39,6 +41,28 @@ HexahedronAxes axes_of(const Corners& corners) {
     axes.normals[axis] = normal.dot(axes.edges[axis]) < 0 ? Vec3(-normal) : normal;
   }
   return axes;
+}
+
+std::optional<int> passage_axis(const Corners& inner, const Corners& outer, double by) {
+  std::optional<int> through;
+  const std::array<Vec3, 3> normals = axes_of(outer).normals;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3& normal = normals[static_cast<std::size_t>(axis)];
+    const Extent own = extent_along(outer, normal), other = extent_along(inner, normal);
+    const bool is_within = other.low > own.low - by && other.high < own.high + by;
+    const bool sticks_out = other.low < own.low - by && other.high > own.high + by;
+    if (is_within) continue;
+    if (!sticks_out || through) return std::nullopt;
+    through = axis;
+  }
+  return through;
+}
+
+Weights weights_in(const Corners& box, const Vec3& point) {
+  Mat3 halves;  // half the edges, as columns
+  for (int axis = 0; axis < 3; ++axis) halves.col(axis) = (box.row(1 << axis) - box.row(0)).transpose() / 2;
+  const Vec3 centre = box.colwise().mean().transpose();
+  return trilinear_weights(halves.fullPivLu().solve(point - centre));
 }
 
 double thickness(const Corners& corners) {

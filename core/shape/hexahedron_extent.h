@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "core/base/geometry.h"
 
@@ -26,6 +27,13 @@ struct HexahedronAxes {
   std::array<Vec3, 3> normals;  ///< of the mean edges' planes, on the side of the edge of the same axis
 };
 HexahedronAxes axes_of(const Corners& corners);
+
+/// The local axis of `outer` along which `inner` sticks out of it at both ends, by more than `by`, while along the two
+/// others it lies within it, but for `by`: a column through a ring. Boxes at rest.
+std::optional<int> passage_axis(const Corners& inner, const Corners& outer, double by);
+
+/// The weights of a point in a box at rest, which may be flat.
+Weights weights_in(const Corners& box, const Vec3& point);
 
 /// The smallest extent along the normals: the thickness of a panel, also of one that is sheared.
 double thickness(const Corners& corners);

@@ -257,6 +257,39 @@ TEST_CASE("contacts: a box on another is across their common face, slides, comes
   CHECK(!contact_of(table, box({0, 0, 0}, {0.4, 0.08, 0.4})).has_value());
 }
 
+TEST_CASE("contacts: a ring slides along its column until it comes off, and does not go aside") {
+  test::BoxShape s;
+  const PartIndex column = s.box("column", {0, 0, 0}, {0.1, 0.5, 0.1});
+  const PartIndex ring = s.box("ring", {0, 0.1, 0}, {0.3, 0.05, 0.3});
+  const PartIndex apart = s.box("apart", {0.35, 0.1, 0}, {0.05, 0.05, 0.05});
+  const Shape shape = s.shape();
+  const auto at = [&](PartIndex part) { return shape.parts[part].hexahedron.corners; };
+  CHECK(!contact_of(at(column), at(ring)));
+  CHECK(!passage_of(at(ring), at(apart)));
+  for (const bool first : {true, false}) {
+    CAPTURE(first);
+    const PartIndex a = first ? column : ring, b = first ? ring : column;
+    const auto passage = passage_of(at(a), at(b));
+    REQUIRE(passage);
+    CHECK(passage->first_passes == first);
+    const auto moved = [&](const Vec3& by) {
+      const Corners ring_now = at(ring).rowwise() + by.transpose();
+      return first ? change_of(*passage, at(a), ring_now) : change_of(*passage, ring_now, at(b));
+    };
+    CHECK(moved({0, 0.3, 0}).apart == doctest::Approx(0).epsilon(1e-12));
+    CHECK(moved({0, 0.3, 0}).lost == doctest::Approx(0).epsilon(1e-12));
+    // Its lower edge is at 0.45, of a height of 0.1.
+    CHECK(moved({0, 0.4, 0}).lost == doctest::Approx(0.5));
+    CHECK(moved({0, 1, 0}).lost == 1);
+    CHECK(moved({0.02, -0.3, 0}).apart == doctest::Approx(0.02));
+  }
+  // A thicker column goes into the ring.
+  const auto passage = passage_of(at(column), at(ring));
+  Corners thick = at(column);
+  thick.col(0) *= 1.5;
+  CHECK(change_of(*passage, thick, at(ring)).apart == doctest::Approx(0.05));
+}
+
 TEST_CASE("contacts: a lid turns on an edge of its chest, and not on an axis that is farther away than it is thick") {
   const Corners chest = make_box({0, 0, 0}, Mat3::Identity(), {0.5, 0.3, 0.4}).corners;
   const Corners lid = make_box({0, 0.32, 0}, Mat3::Identity(), {0.5, 0.02, 0.4}).corners;
