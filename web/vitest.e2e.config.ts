@@ -12,8 +12,8 @@ export default defineConfig({
     // Nothing fails for being slow: these tell what hangs from what a busy machine is late with. One test in some hundreds
     // still reads the page between two of its frames; what fails twice is a fault.
     retry: 1,
-    testTimeout: 300_000,
-    expect: { poll: { timeout: 60_000 } },
-    hookTimeout: 120_000,
+    testTimeout: 600_000,
+    expect: { poll: { timeout: 120_000 } },
+    hookTimeout: 240_000,
   },
 });

@@ -114,6 +114,19 @@ std::string acts_on(const Shape& shape, const Statement& statement) {
   return text.substr(0, text.find_last_of("+-"));
 }
 
+/// Of two edits that contradict each other, the later one, with what the earlier one says of others.
+PlainEdit instead(const Shape& shape, PlainEdit before, const PlainEdit& later) {
+  std::erase_if(before.statements, [&](const Statement& statement) {
+    return std::any_of(later.statements.begin(), later.statements.end(),
+                       [&](const Statement& other) { return acts_on(shape, other) == acts_on(shape, statement); });
+  });
+  before.statements.insert(before.statements.end(), later.statements.begin(), later.statements.end());
+  before.hints.insert(later.hints.begin(), later.hints.end());
+  before.loose.insert(later.loose.begin(), later.loose.end());
+  before.target = later.target;
+  return before;
+}
+
 Way take(const ShapeFacts& facts, const std::vector<Token>& tokens, const std::vector<Item>& items,
          const PartNames& names, const std::vector<PartIndex>& pointed) {
   Way way;
@@ -174,6 +187,7 @@ Way take(const ShapeFacts& facts, const std::vector<Token>& tokens, const std::v
     for (const PlainEdit& before : way.edits) {
       for (const PlainEdit& more : meant.edits) {
         PlainEdit sum = before;
+        bool contradicts = false;
         for (const Statement& statement : more.statements) {
           const bool again = std::any_of(sum.statements.begin(), sum.statements.end(), [&](const Statement& other) {
             return acts_on(facts.shape(), other) == acts_on(facts.shape(), statement);
@@ -181,7 +195,10 @@ Way take(const ShapeFacts& facts, const std::vector<Token>& tokens, const std::v
           const bool same = std::any_of(sum.statements.begin(), sum.statements.end(), [&](const Statement& other) {
             return reading_signature(facts.shape(), {other}) == reading_signature(facts.shape(), {statement});
           });
-          if (again && !(same && !more.target)) fail("it asks for two different changes of the same");
+          if (again && !(same && !more.target)) {
+            fail("it asks for two different changes of the same");
+            contradicts = true;
+          }
           if (!again) sum.statements.push_back(statement);
         }
         sum.hints.insert(more.hints.begin(), more.hints.end());
@@ -190,6 +207,7 @@ Way take(const ShapeFacts& facts, const std::vector<Token>& tokens, const std::v
         if (sum.target && more.target) fail("it names two sizes for one slider");
         if (!sum.target) sum.target = more.target;
         if (sums.size() < most_readings) sums.push_back(std::move(sum));
+        if (contradicts && sums.size() < most_readings) sums.push_back(instead(facts.shape(), before, more));
       }
     }
     way.edits = std::move(sums);

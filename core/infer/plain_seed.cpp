@@ -150,6 +150,7 @@ class Meaning {
   // ---------------------------------------------------------------------------------------------------- the whole
 
   Meant of_whole() {
+    if (clause_.change == Change::count) return any_row();
     if (clause_.needs_object && !clause_.whole) return no_edit("it does not say of what");
     StatementMaker make(facts_, clause_.sign);
     switch (clause_.change) {
@@ -189,11 +190,25 @@ class Meaning {
       }
       case Change::thick:
         return no_edit("it does not say which part shall be " + std::string(clause_.sign > 0 ? "thicker" : "thinner"));
-      case Change::count:
-        return no_edit("it does not say of what there shall be " + std::string(clause_.sign > 0 ? "more" : "fewer"));
       default:
         return no_edit("it does not name a part");
     }
+  }
+
+  /// "Two more shelves", where no part is called a shelf: each row or ring may be meant. Not "more comfortable".
+  Meant any_row() const {
+    Meant offers{{}, "it does not say of what there shall be " + std::string(clause_.sign > 0 ? "more" : "fewer")};
+    Clause counted = clause_;
+    if (!counted.how_much && counted.counts_one) counted.how_much = HowMuch{HowMuch::Kind::by, HowMuch::Unit::piece, 1};
+    if (!counted.how_much) return offers;
+    for (const PartIndex p : facts_.active()) {
+      if (!shape_.parts[p].is_virtual() || offers.edits.size() == most_offers) continue;
+      Meant one = PartMeaning(facts_, counted).of(p, {p});
+      if (one.edits.size() != 1 || !one.fault.empty()) continue;
+      loosen(facts_, counted, {p}, one.edits.front());
+      offers.edits.push_back(std::move(one.edits.front()));
+    }
+    return offers;
   }
 
   Meant whole_along(int axis) {

@@ -126,6 +126,27 @@ TEST_CASE("what may be meant is offered") {
                                  "widen seat about its centre, left and right, to 110 %"});
   CHECK(words("armchair", "only the left arm").size() > 1);
   CHECK(words("chair", "make it nicer").empty());
+  CHECK(words("chair", "make the seat 40 cm wide and the seat 50 cm wide") ==
+        std::vector<std::string>{"narrow seat about its centre, left and right, to 40 cm",
+                                 "widen seat about its centre, left and right, to 50 cm"});
+}
+
+TEST_CASE("of what there shall be more, where nothing is called so, is asked with every row and ring") {
+  for (const char* request : {"two more shelves", "add two spindles", "make it two boards more"}) {
+    CAPTURE(request);
+    const PlainReading reading = read("chair", request);
+    CHECK_FALSE(reading.sure);
+    REQUIRE(reading.edits.size() == 1);
+    CHECK(reading.edits.front().statements.front().op == Op::change_count);
+    REQUIRE(reading.edits.front().target);
+    CHECK(reading.edits.front().target->how_much.value == 2);
+  }
+  const PlainReading fewer = read("bookcase", "remove one plank");
+  CHECK_FALSE(fewer.sure);
+  REQUIRE(fewer.edits.size() == 1);
+  CHECK(fewer.edits.front().target->how_much.value == -1);
+  CHECK(words("chair", "more comfortable").empty());
+  CHECK(words("chair", "more").empty());
 }
 
 TEST_CASE("what may be said of one thing or of two is asked about") {

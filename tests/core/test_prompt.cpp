@@ -153,7 +153,8 @@ TEST_CASE("the schemas describe objects and know the tasks' fields") {
   CHECK(seed["oneOf"][0]["properties"].contains("edits"));
   CHECK(seed["oneOf"][1]["properties"].contains("unclear"));
   const nlohmann::json& ops = seed["$defs"]["edit"]["properties"]["op"]["enum"];
-  const nlohmann::json& hints = reply_schema(type_hints_task)["properties"]["hints"]["additionalProperties"]["enum"];
+  const nlohmann::json told = reply_schema(type_hints_task);
+  const nlohmann::json& hints = told["properties"]["hints"]["additionalProperties"]["enum"];
   CHECK(ops.size() == 8);  // all that change something
   CHECK(hints.size() == 7);
   for (const auto& op : ops) {

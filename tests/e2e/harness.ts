@@ -162,7 +162,7 @@ export async function openPage(
     serviceWorkers: 'block', // it would answer what tests answer for the server
     ...options,
   });
-  context.setDefaultTimeout(60_000); // as in web/vitest.e2e.config.ts
+  context.setDefaultTimeout(120_000); // as in web/vitest.e2e.config.ts
   await prepare(context);
   const page = await context.newPage();
   const complaints: string[] = [];

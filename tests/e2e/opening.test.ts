@@ -4,7 +4,8 @@ import type { DebugHandle } from '../../web/src/ui/debug';
 import { toGlb } from '../../web/tools/glb.mjs';
 import { serious } from './axe';
 import { stool, stoolGltf } from './fixture';
-import { openModel, openPage, outputFolder, useSite, withoutGallery } from './harness';
+import { openModel, openPage, outputFolder, pick, useSite, withoutGallery } from './harness';
+import { wall } from './wall';
 
 declare const parsel: DebugHandle;
 
@@ -36,6 +37,25 @@ describe.each([
       .getByLabel('Open files')
       .setInputFiles([{ name: 'stool.glb', mimeType: 'model/gltf-binary', buffer: stool }]);
     await first.waitFor({ state: 'detached' });
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+});
+
+describe('a model after one of more parts', () => {
+  it('is in sight', async () => {
+    const { page, complaints } = await openModel(site.browser, site.url, wall(4, 5), {
+      name: 'wall.glb',
+      viewport: { width: 1100, height: 700 },
+    });
+    await pick(page, [{ name: 'stool.glb', mimeType: 'model/gltf-binary', buffer: stool }]);
+    await page.getByText('10 parts').waitFor();
+    await page.waitForFunction(() => parsel.stage()?.isStill());
+    const { x, y } = await page.evaluate(() => parsel.stage()?.projectMean([0, 0, 0]) ?? { x: 0, y: 0 });
+    expect(x).toBeGreaterThan(256); // between the panels
+    expect(x).toBeLessThan(1100 - 352);
+    expect(y).toBeGreaterThan(72);
+    expect(y).toBeLessThan(700);
     expect(complaints).toEqual([]);
     await page.context().close();
   });

@@ -59,6 +59,24 @@ describe('a model of one’s own, without a key', () => {
     await page.context().close();
   });
 
+  it('gives each of two changes a slider of its own, in the same step', async () => {
+    const { page, complaints } = await openModel(site.browser, site.url, stool);
+    await say(page, 'make the seat wider and the legs longer');
+    await composer(page).getByText('Understood:').waitFor();
+    expect(await layers(page)).toHaveLength(1);
+    await composer(page).getByText('2 changes by one slider').waitFor();
+    await page.screenshot({ path: `${outputFolder}/changes_by_one_slider.png` });
+    await composer(page).getByRole('button', { name: 'A slider for each' }).click();
+    await expect.poll(() => layers(page)).toHaveLength(2);
+    expect(new Set(await layers(page)).size).toBe(2);
+    await expect.poll(() => composer(page).getByText('2 changes by one slider').count()).toBe(0);
+    await page.screenshot({ path: `${outputFolder}/slider_for_each.png` });
+    await page.getByRole('button', { name: /^Undo/ }).click();
+    expect(await layers(page)).toEqual([]);
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+
   it('offers what may be meant, to be clicked', async () => {
     const { page, complaints } = await openModel(site.browser, site.url, stool);
     await say(page, 'make the seat 10 wider');

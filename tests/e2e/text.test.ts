@@ -54,7 +54,7 @@ describe('a layer as text', () => {
   });
 
   it('from a file is added behind the others', async () => {
-    await page.getByRole('button', { name: 'Add from text' }).click();
+    await page.getByRole('button', { name: 'Write as text' }).click();
     const content = programText({ ...program(shape), layers: program(shape).layers.slice(0, 1) });
     await page
       .getByLabel('Program from a file')

@@ -1,17 +1,18 @@
-// The two sets of requests with predicates, their models, prompts and recorded replies; see judged_requests.mjs.
+// The sets of requests with predicates, their models, prompts and recorded replies; see judged_requests.mjs.
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { withoutNames } from '../../web/tools/nameless.mjs';
 import { batchedPrompts } from './batched.mjs';
-import { variantPrompts } from './variants.mjs';
+import { variantPrompts, withPicture } from './variants.mjs';
 
 const folder = dirname(fileURLToPath(import.meta.url));
 const data = process.env.PARSEL_DATA || null;
-export const sets = ['harder', 'paper'];
+export const sets = ['harder', 'paper', 'nameless'];
 
 /** What is missing of a set, a sentence; null when it can be measured. */
 export function missing(set) {
-  if (set === 'harder' || (data && existsSync(join(data, 'paper', 'pairs.json')))) return null;
+  if (set !== 'paper' || (data && existsSync(join(data, 'paper', 'pairs.json')))) return null;
   return 'PARSEL_DATA has no paper/pairs.json: nothing is measured.';
 }
 
@@ -26,7 +27,7 @@ const labelsIn = (predicates) =>
   );
 
 function readPairs(set) {
-  if (set === 'harder') return { pairs: JSON.parse(readFileSync(join(folder, 'harder.json'), 'utf8')), edits: {} };
+  if (set !== 'paper') return { pairs: JSON.parse(readFileSync(join(folder, `${set}.json`), 'utf8')), edits: {} };
   const { pairs } = JSON.parse(readFileSync(join(data, 'paper', 'pairs.json'), 'utf8'));
   const edits = join(data, 'paper', 'edits.json');
   return {
@@ -39,37 +40,49 @@ function readPairs(set) {
   };
 }
 
+/** What a model is opened as, which stands in the prompts: nothing that says what it is where parts have no names either. */
+const nameOf = (set, model) => (set === 'nameless' ? 'model' : model);
+
 /**
  * Every request of a set whose model is there, opened once for its prompts.
  * @param core from loadCore()
  * @param only indices; all when empty
- * @returns [{index, model, request, predicates, unclear, expected, labels, reading, file, shape, prompts, oneShot,
- *   batched}]; expected, labels: of the paper's pairs, what was written down besides; reading: somebody else's edit, if any;
- *   prompts as the page asks them; oneShot: for the whole program; batched: all relations of a kind in one
+ * @returns [{index, model, name, request, predicates, unclear, expected, labels, reading, file, shape, prompts, oneShot,
+ *   batched, pictured}]; expected, labels: of the paper's pairs, what was written down besides; reading: somebody else's
+ *   edit, if any; prompts as the page asks them; oneShot: for the whole program; batched: all relations of a kind in one;
+ *   pictured: with a picture of the numbered parts. Of models without names only the seed and the hints are asked about,
+ *   with the picture and without (oneShot is null, batched empty); of others pictured is empty
  */
 export function renderSet(core, set, only = []) {
   const { pairs, edits } = readPairs(set);
   const gallery = core('gallery', {});
   const fileOf = (model) => {
     const index = gallery.result.models.findIndex(({ id }) => id === model);
-    if (set === 'harder' && index >= 0) return gallery.buffers[index];
+    if (set !== 'paper' && index >= 0) return gallery.buffers[index];
     const file = data && join(data, set === 'paper' ? 'paper' : 'furniture', `${model}.glb`);
     return file && existsSync(file) ? readFileSync(file) : null;
   };
   const rendered = [];
   for (const [index, pair] of pairs.entries()) {
     if (only.length > 0 && !only.includes(index)) continue;
-    const file = fileOf(pair.model);
-    if (file === null) {
+    const named = fileOf(pair.model);
+    if (named === null) {
       process.stdout.write(`${pair.model}: the model is not there, skipped\n`);
       continue;
     }
-    const { shape } = core('open', { name: pair.model, external: [] }, [file]).result;
+    const file = set === 'nameless' ? withoutNames(named) : named;
+    const name = nameOf(set, pair.model);
+    const { shape } = core('open', { name, external: [] }, [file]).result;
     const { prompts } = core('prompts', { request: pair.request, mentioned: pair.mentioned ?? [] }).result;
-    const [oneShot] = variantPrompts('one_shot', prompts);
-    const batched = batchedPrompts(prompts);
-    const reading = edits[index] ?? null;
-    rendered.push({ unclear: false, ...pair, index, reading, file, shape, prompts, oneShot, batched });
+    const common = { unclear: false, ...pair, name, index, reading: edits[index] ?? null, file, shape };
+    if (set === 'nameless') {
+      const asked = prompts.filter(({ relation }) => relation === null);
+      const pictured = withPicture(core, pair.request, asked);
+      rendered.push({ ...common, prompts: asked, oneShot: null, batched: [], pictured });
+    } else {
+      const [oneShot] = variantPrompts('one_shot', prompts);
+      rendered.push({ ...common, prompts, oneShot, batched: batchedPrompts(prompts), pictured: [] });
+    }
   }
   return rendered;
 }
@@ -84,9 +97,9 @@ export function readReplies(set) {
 
 /** Map of hash → {hash, text, votes}. Which symmetries may go is asked once, as there are many; so is each variant. */
 function allPrompts(rendered, votes) {
-  const all = rendered.flatMap(({ prompts, oneShot, batched }) => [
-    ...prompts.map((prompt) => ({ ...prompt, votes: prompt.relation === null ? votes : 1 })),
-    ...[oneShot, ...batched].map((prompt) => ({ ...prompt, votes: 1 })),
+  const all = rendered.flatMap(({ prompts, oneShot, batched, pictured }) => [
+    ...[...prompts, ...pictured].map((prompt) => ({ ...prompt, votes: prompt.relation === null ? votes : 1 })),
+    ...[oneShot, ...batched].filter(Boolean).map((prompt) => ({ ...prompt, votes: 1 })),
   ]);
   return new Map(all.map((prompt) => [prompt.hash, prompt]));
 }

@@ -1,7 +1,7 @@
 // How well the recorded replies read their requests (ParSEL §7.2.2, §7.3.1 and supplement §5.3, §5.4: tables 2 and 3),
 // against what was written down by hand beforehand in prompts/expected.json.
 //
-//   node tests/eval/requests.mjs [--json FILE] [--parsel TOOL]        (after ./web/start.sh --build-only)
+//   node tests/eval/requests.mjs [--each] [--json FILE] [--parsel TOOL]        (after ./web/start.sh --build-only)
 //
 // Acc(SE)  every seed edit's operator and operand stand in the program that the expected edit gives; for a request that
 //          asks for nothing these edits can do: it was called unclear
@@ -26,7 +26,7 @@ import { meshDistance } from './mesh_distance.mjs';
 import { readReplies, variantPrompts } from './variants.mjs';
 
 const text = { type: 'string' };
-const { values: options } = parseArgs({ options: { json: text, parsel: text } });
+const { values: options } = parseArgs({ options: { json: text, parsel: text, each: { type: 'boolean' } } });
 const builds = ['native-release', 'native-debug'].map((preset) => join(root, 'build', preset, 'core', 'parsel'));
 const tool = options.parsel ?? builds.find(existsSync);
 
@@ -149,6 +149,7 @@ const readers = ['voting', 'one reply', 'no examples', 'no thinking', 'naive'];
 const makers = ['one shot', 'seed only', 'full'];
 const measured = new Map([...readers, ...makers].map((name) => [name, []]));
 const rows = [];
+const each = [];
 
 for (const { model, request, kind, gallery: id, edit, unclear } of expected) {
   const [rendered] = renderRequests(core, [{ model, request }]);
@@ -184,6 +185,13 @@ for (const { model, request, kind, gallery: id, edit, unclear } of expected) {
   const oneShot = ofVariant('one_shot');
   for (const name of readers) {
     if (inferences[name] !== null) measured.get(name).push(measure(shape, inferences[name], truth));
+  }
+  if (options.each) {
+    const count = Math.max(...rendered.prompts.map((prompt) => recorded(prompt).length));
+    for (let vote = 0; vote < count; ++vote) {
+      const alone = infer(rendered.prompts, (prompt) => [recorded(prompt)[vote] ?? recorded(prompt)[0]]);
+      each.push({ model, request, vote, refused: alone.refused.length, ...measure(shape, alone, truth) });
+    }
   }
   const { voting } = inferences;
   const row = { model, request, kind, outcome: voting.seed.outcome, refused: voting.refused.length };
@@ -241,6 +249,13 @@ const programs = table(makers, {
       }),
   meshes: ({ mesh }) => (mesh <= 0.01 ? 1 : 0),
 });
+if (options.each) {
+  const wrong = (part) => each.filter((one) => one[part] < 1);
+  const counts = ['seed', 'relations', 'hints'].map((part) => `${part} ${wrong(part).length}`);
+  console.log(`each vote alone, of ${each.length} not as expected: ${counts.join(', ')}`);
+  for (const one of each.filter(({ seed, relations, hints }) => Math.min(seed, relations, hints) < 1))
+    console.log(`  ${one.model}, vote ${one.vote}: ${one.request}  SE ${one.seed}  R ${one.relations}  T ${one.hints}`);
+}
 console.table(replies);
 console.table(programs);
 if (options.json) writeFileSync(options.json, `${JSON.stringify({ replies, programs, rows }, null, 1)}\n`);

@@ -36,6 +36,22 @@ function swap(text, old, by) {
   return text.replace(old, by);
 }
 
+/**
+ * Prompts with the paragraph that the page's suggestions have about the picture of the numbered parts (prompts/README.md).
+ * @param core from loadCore(), with the model open. @param prompts of seed_edit and type_hints
+ * @returns likewise, with numbered: ids of the parts under 1, 2, …
+ */
+export function withPicture(core, request, prompts) {
+  const asked = { task: 'request_variations', request, mentioned: [], count: 0, picture: true };
+  const { prompt, numbered } = core('proposal_prompt', asked).result;
+  const [words] = /^The picture shows .*$/m.exec(prompt.text);
+  return prompts.map((one) => {
+    const place = '\nParts that the person pointed at:';
+    const text = swap(one.text, place, `\n${words}\n${place}`);
+    return { ...one, text, hash: createHash('sha256').update(text).digest('hex'), numbered };
+  });
+}
+
 const withoutExamples = (text) => cut(text, '# Worked examples', '# The model and the request');
 
 function withoutThinking(text) {

@@ -5,12 +5,14 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import type { Prompt } from '../../web/src/worker/protocol';
 import { batchedPrompts, separated } from '../eval/batched.mjs';
 import { draw, frameOf, png } from '../eval/draw.mjs';
+import { faultOf } from '../eval/faults.mjs';
 import type { Nodes } from '../eval/judged.mjs';
 import { keptRelations } from '../eval/kept_relations.mjs';
 import { blame } from '../eval/paper/blame.mjs';
 import { sliderAt } from '../eval/paper/slider.mjs';
 import { judge } from '../eval/predicates.mjs';
 import { score } from '../eval/study/score.mjs';
+import { withPicture } from '../eval/variants.mjs';
 import { call, loadModule } from './module';
 
 type Point = readonly [number, number, number];
@@ -140,8 +142,30 @@ describe('whose fault a miss is', () => {
   });
 });
 
-describe('one question about all relations of a kind', () => {
+describe('what of a reading is at fault', () => {
+  const wide = { op: 'scale_1d', part: 'top' };
+  const high = { op: 'scale_1d', part: 'leg_left' };
+  const right = { seed: [wide], hints: { leg_left: 'translate' }, disabled: ['r1'] };
+  const isMet = async (edit: object) => JSON.stringify(edit) === JSON.stringify(right);
+
+  it('is what has to be exchanged for that of one that meets the request', async () => {
+    expect(await faultOf({ ...right, seed: [high] }, [right], isMet)).toBe('seed');
+    expect(await faultOf({ ...right, hints: {} }, [right], isMet)).toBe('hints');
+    expect(await faultOf({ ...right, disabled: [] }, [right], isMet)).toBe('validity');
+    expect(await faultOf({ ...right, seed: [high], disabled: [] }, [right], isMet)).toBe('seed and validity');
+  });
+
+  it('is unknown when none meets it; one that needs less exchange counts first', async () => {
+    const edit = { ...right, hints: {} };
+    expect(await faultOf(edit, [], isMet)).toBeNull();
+    const other = { ...right, seed: [high], disabled: [] };
+    expect(await faultOf(edit, [other, right], isMet)).toBe('hints');
+  });
+});
+
+describe('other ways to ask', () => {
   let prompts: Prompt[];
+  let pictured: ReturnType<typeof withPicture>;
   beforeAll(async () => {
     const module = await loadModule();
     const gallery = call<{ models: { id: string }[] }>(module, 'gallery', {});
@@ -149,9 +173,23 @@ describe('one question about all relations of a kind', () => {
     call(module, 'open', { name: 'chair', external: [] }, [chair]);
     const asked = { request: 'make it wider', mentioned: [] };
     ({ prompts } = call<{ prompts: Prompt[] }>(module, 'prompts', asked).result);
+    const whole = prompts.filter(({ relation }) => relation === null);
+    pictured = withPicture((method, parameters) => call(module, method, parameters), asked.request, whole);
   });
 
-  it('names each of them once and asks for a list', () => {
+  it('with a picture, the prompt says which part has which number, and nothing else changes', () => {
+    expect(pictured.map(({ task }) => task)).toEqual(['seed_edit', 'type_hints']);
+    for (const { task, text, hash, numbered } of pictured) {
+      const plain = prompts.find((prompt) => prompt.task === task);
+      const [words = ''] = /\nThe picture shows .*\n/.exec(text) ?? [];
+      expect(text.replace(words, '')).toBe(plain?.text);
+      expect(hash).not.toBe(plain?.hash);
+      expect(words).toContain(`: ${numbered.map((id, i) => `${i + 1} ${id}`).join(', ')}.`);
+      for (const id of numbered) expect(plain?.text).toContain(`- ${id}`);
+    }
+  });
+
+  it('one question about all relations of a kind names each of them once and asks for a list', () => {
     const batched = batchedPrompts(prompts);
     expect(batched.flatMap(({ relations }) => relations)).toEqual(
       prompts.filter(({ relation }) => relation !== null).map(({ relation }) => relation),
@@ -164,7 +202,7 @@ describe('one question about all relations of a kind', () => {
     }
   });
 
-  it('is taken apart into the answers that the core reads', () => {
+  it('its answer is taken apart into those that the core reads', () => {
     const block = (json: string) => `Thinking.\n\n\`\`\`json\n${json}\n\`\`\`\n`;
     const about = { relations: ['r1', 'r2'] };
     const answers = separated(about, block('{"give_up": ["r2"]}'));

@@ -15,7 +15,7 @@ import {
   vectorOf,
 } from '../../web/src/carve/placing';
 import type { Shape, ShapeRelation, Vec3 } from '../../web/src/program/types';
-import { extentOf, isPlaced, placingOf, seemsDrawnIn, seemsUp } from '../../web/src/session/placing';
+import { extentOf, isPlaced, placingOf, seemsDrawnIn, seemsFront, seemsUp } from '../../web/src/session/placing';
 import { readSaved } from '../../web/src/share/saved';
 import { stool } from '../e2e/fixture';
 import { box, oneBox } from './box_shapes';
@@ -170,6 +170,33 @@ describe('what seems to be up', () => {
     const lying = standing('+z');
     const across = lying.relations.map((relation) => ({ ...relation, normal: vectorOf('+z') })) as ShapeRelation[];
     expect(seemsUp({ ...lying, relations: across })).toBe(null);
+  });
+});
+
+describe('what seems to be the front', () => {
+  /** A case with panels where labels say. */
+  const of = (...labels: [label: string, centre: Vec3][]): Shape => ({
+    ...oneBox,
+    parts: [
+      box('case', 0, [0, 0, 0], [0.5, 0.5, 0.5]),
+      ...labels.map(([label, centre], i) => box(label, i + 1, centre, [0.1, 0.1, 0.1])),
+    ],
+  });
+  it.each<[string, Direction, Shape]>([
+    ['what is called front', '+x', of(['Drawer front', [0.6, 0, 0.05]])],
+    ['what is called back, across from it', '-x', of(['BackPanel', [0.6, 0, 0]])],
+    ['both', '-z', of(['front_door', [0.1, 0, -0.6]], ['rear', [0, 0, 0.6]])],
+  ])('is told by %s', (_, front, shape) => {
+    expect(seemsFront(shape)).toBe(front);
+  });
+  it.each<[string, Shape]>([
+    ['stands as it should', of(['back', [0, 0, -0.6]])],
+    ['has no such labels', of(['door', [0.6, 0, 0]], ['backpack', [0.6, 0, 0]])],
+    ['has labels that contradict each other', of(['front door', [0.6, 0, 0]], ['back door', [0.6, 0, 0]])],
+    ['has them in corners', of(['front left leg', [0.6, 0, -0.6]])],
+    ['has them in the middle', of(['front', [0.1, 0, 0]])],
+  ])('is left alone where the model %s', (_, shape) => {
+    expect(seemsFront(shape)).toBe('+z');
   });
 });
 

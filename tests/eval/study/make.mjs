@@ -5,7 +5,8 @@
 //   node tests/eval/study/make.mjs FILE [--a voted] [--b 'one go'] [--seed 1] [--out FOLDER] [--sheets]
 //
 // FILE: what judged_requests.mjs --json wrote. FOLDER: index.html with frames/, to be opened or served as it is; key.json,
-// which score.mjs needs and who answers must not see; --sheets: sheet_<n>.png with sheet_<n>.txt, four questions each.
+// which score.mjs needs and who answers must not see; --sheets: sheet_<n>.png with sheet_<n>.prompt.txt, four questions each,
+// both orders of a comparison never on sheets of one half; answers.mjs reads what a model replied to them.
 // Where both variants look the same in every frame, nothing is asked: that is a tie.
 import { createHash } from 'node:crypto';
 import { copyFileSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
@@ -130,18 +131,32 @@ writeFileSync(
   `${JSON.stringify({ study: id, set, a: values.a, b: values.b, seed: Number(values.seed), alike, key }, null, 1)}\n`,
 );
 
+/** What a sheet says to whoever knows nothing of the study. */
+const sheetText = (
+  part,
+) => `The picture has ${part.length === 1 ? 'one row' : `${part.length} rows, from top to bottom`}, one for each request below. Every row shows a 3D model and two ways to edit it as the request asks, the left one and the right one. From left to right a row has: the model before the edit; the left edit half way and at its end; a grey field; the right edit half way and at its end. How far an edit goes is up to a slider, so that it does not matter which of the two goes farther. The models are seen from their front, their left side and above: their front looks to the lower left of the picture, their left side is on the right in the picture.
+
+For each request: which of the two does better what was asked? Look at what was asked to change, at what was asked to stay, and at whether the parts still fit together as they did. Answer "left", "right" or, where there is no difference that matters, "same".
+
+${part.map(({ id: question, request }, i) => `- Row ${i + 1}, ${question}: ${JSON.stringify(request)}`).join('\n')}
+
+Say for each row in a sentence or two what you see in the left and in the right edit. Then end with exactly one JSON block, fenced with \`\`\`json and \`\`\`, with an answer for each: {${part.map(({ id: question }) => `"${question}": "left" | "right" | "same"`).join(', ')}}
+`;
+
 if (values.sheets) {
   const each = 4;
-  for (let start = 0; start < questions.length; start += each) {
-    const part = questions.slice(start, start + each);
-    const rows = part.map(({ sides: [left, right] }) => {
-      const gap = new Uint8Array(side * side * 3).fill(120);
-      return strip([left[0], left[4], left[8], gap, right[4], right[8]]);
-    });
-    const sheet = start / each + 1;
-    writeFileSync(join(out, `sheet_${sheet}.png`), png(stacked(rows), side * 6, side * part.length));
-    const lines = part.map(({ id: question, request }) => `${question}: ${request}`);
-    writeFileSync(join(out, `sheet_${sheet}.txt`), `${lines.join('\n')}\n`);
+  let sheet = 0;
+  for (const half of [questions.slice(0, first.length), questions.slice(first.length)]) {
+    for (let start = 0; start < half.length; start += each) {
+      const part = half.slice(start, start + each);
+      const rows = part.map(({ sides: [left, right] }) => {
+        const gap = new Uint8Array(side * side * 3).fill(120);
+        return strip([left[0], left[4], left[8], gap, right[4], right[8]]);
+      });
+      sheet++;
+      writeFileSync(join(out, `sheet_${sheet}.png`), png(stacked(rows), side * 6, side * part.length));
+      writeFileSync(join(out, `sheet_${sheet}.prompt.txt`), sheetText(part));
+    }
   }
 }
 process.stdout.write(

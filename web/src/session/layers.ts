@@ -41,6 +41,11 @@ export interface Layers {
    */
   amendLayer(mark: Mark, key: number, found: Propagation, made?: Made): boolean;
   /**
+   * Puts several layers in place of one, in the step that made it; the first has its key, and its slider stays where it is,
+   * those of the others at rest. False as amendLayer().
+   */
+  divideLayer(mark: Mark, key: number, found: readonly Propagation[], made: (one: Propagation) => Made): boolean;
+  /**
    * Puts what was found in place of a layer, as a step; its slider stays where it is, if it goes so far. False when the layer
    * is gone or the other does not fit, which it says.
    */
@@ -127,14 +132,27 @@ export function createLayers(
     return goTogether(inPlace(activeLayers(document.peek()))) ? inPlace : null;
   }
 
-  function amendLayer(mark: Mark, key: number, found: Propagation, made?: Made): boolean {
-    const inPlace = replacing(key, found, made);
+  function amend(mark: Mark, inPlace: ((entries: Entries) => Entries) | null): boolean {
     if (inPlace === null) return false;
     const { model } = document.peek();
     // What was found holds for this model and its labels; states of before another was given keep what they had.
     return history.amend(mark, (state) =>
       state.model === model ? { ...state, layers: inPlace(state.layers) } : state,
     );
+  }
+
+  function divideLayer(mark: Mark, key: number, found: readonly Propagation[], made: (one: Propagation) => Made) {
+    const [first, ...others] = found;
+    const inPlace = first === undefined ? null : replacing(key, first, made(first));
+    if (inPlace === null) return false;
+    const added: LayerEntry[] = [];
+    for (const one of others) {
+      const present = [...inPlace(document.peek().layers), ...added];
+      added.push(...named(one.program.layers, present).map((layer) => ({ ...newEntry(layer), ...made(one) })));
+    }
+    const divided = (entries: Entries) =>
+      inPlace(entries).flatMap((entry) => (entry.key === key ? [entry, ...added] : [entry]));
+    return goTogether(divided(activeLayers(document.peek()))) && amend(mark, divided);
   }
 
   function settle(key: number, inRun = false): void {
@@ -172,7 +190,8 @@ export function createLayers(
     newEntry,
     entriesOf,
     addProgram,
-    amendLayer,
+    amendLayer: (mark, key, found, made) => amend(mark, replacing(key, found, made)),
+    divideLayer,
     exchangeLayer(key, found, request) {
       const inPlace = replacing(key, { ...found, program: withRequest(found.program, request) });
       if (inPlace !== null) changeLayers(t`read it as “${request}”`, inPlace);

@@ -133,7 +133,13 @@ function remarksOn({ files, shape }: OpenModel): string {
     remarks.push(t`The file came compressed with ${compression}; what you export will not be.`);
     if (lost.length > 0) remarks.push(t`It loses ${lost.slice(0, 3).join(', ')}.`);
   }
-  const left = shape.warnings.map(({ place, text }) => `${place}: ${text}`).slice(0, 3);
+  // Of the whole, nothing was left out; that it is one part, the offer to split it says.
+  const isOfWhole = ({ place }: { readonly place: string }) => place === 'file';
+  for (const { text } of shape.warnings.filter(isOfWhole)) {
+    if (!text.startsWith('the model is one part')) remarks.push(`${text.charAt(0).toUpperCase()}${text.slice(1)}.`);
+  }
+  const others = shape.warnings.filter((warning) => !isOfWhole(warning));
+  const left = others.map(({ place, text }) => `${place}: ${text}`).slice(0, 3);
   if (left.length > 0) remarks.push(t`Left out: ${left.join('; ')}`);
   return remarks.join(' ');
 }

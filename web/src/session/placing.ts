@@ -109,6 +109,43 @@ export const seemsUp = oncePerShape((shape): Direction | null => {
   return across > normals.length / 2 ? null : first.up;
 });
 
+/** Words of labels for what is at the front (1) or at the back (-1). */
+const facingWords: Readonly<Record<string, number>> = {
+  front: 1,
+  back: -1,
+  rear: -1,
+  backrest: -1,
+  vorne: 1,
+  hinten: -1,
+};
+/** Of half the model's extent, from its middle: so far out, and no further aside. */
+const farOut = 0.5;
+const aside = 0.25;
+
+/** What is the front of the model as it stands, by what its labels call front and back: +z where they say nothing else. */
+export const seemsFront = oncePerShape((shape): Direction => {
+  const real = shape.parts.filter(({ virtual }) => !virtual);
+  const whole = boxOf(real.flatMap(({ corners }) => corners));
+  const told = real.flatMap(({ label, corners }) => {
+    const words = label
+      .replace(/([a-z])([A-Z])/g, '$1 $2')
+      .toLowerCase()
+      .split(/[^a-z]+/);
+    const sign = Math.sign(words.reduce((sum, word) => sum + (facingWords[word] ?? 0), 0));
+    if (sign === 0) return [];
+    return [
+      boxOf(corners).map(([low, high], i) => {
+        const [least = 0, most = 0] = whole[i] ?? [];
+        return (sign * (low + high - least - most)) / (most - least || 1);
+      }),
+    ];
+  });
+  if (told.length === 0) return '+z';
+  const [x, z] = [0, 2].map((i) => told.reduce((sum, out) => sum + (out[i] ?? 0), 0) / told.length) as [number, number];
+  if (Math.abs(x) >= farOut && Math.abs(z) <= aside) return x > 0 ? '+x' : '-x';
+  return z <= -farOut && Math.abs(x) <= aside ? '-z' : '+z';
+});
+
 /** Things that people make or sit on are between these, in metres, along their longest side. */
 const usual = { least: 0.02, most: 15 };
 /** Units that files are drawn in, in metres; a file that says nothing is read in metres. */

@@ -6,8 +6,10 @@ import { browserCache } from '../llm/cache';
 import { findRecorded, loadRecordings } from '../llm/recordings';
 import { currentTarget, isDemo, votesFor } from '../llm/settings';
 import { liveSource, recordedSource } from '../llm/source';
+import type { Statement } from '../program/types';
 import { t } from '../texts/texts';
 import { models } from './core';
+import { divide } from './divide';
 import { isAsFound, type OpenModel, partNames } from './document';
 import { facing, speaksAsSeen } from './facing';
 import { type Said, saidFrom } from './looking';
@@ -94,3 +96,11 @@ export const {
   play: playOnce,
   aim: (key, target) => void aimAt(models.peek(), key, target),
 });
+
+/** Gives each change of what was understood a slider of its own. @param title of the layer of a change */
+export async function divideRequest(title: (statement: Statement) => string): Promise<void> {
+  const core = models.peek();
+  const state = request.peek();
+  if (core === null || state.kind !== 'understood') return;
+  if ((await divide(session, core, state, title)) && request.peek() === state) dismiss();
+}

@@ -70,6 +70,11 @@ export function createSession(): Session {
       if (amended) restack(key);
       return amended;
     },
+    divideLayer(mark, key, found, made) {
+      const divided = layers.divideLayer(mark, key, found, made);
+      if (divided) restack(key);
+      return divided;
+    },
     rewriteLayer(key, layer) {
       layers.rewriteLayer(key, layer);
       restack(key);

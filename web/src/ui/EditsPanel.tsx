@@ -74,7 +74,7 @@ export function EditsPanel({ pickKind }: EditsProps) {
               <Icon name="hand" /> {t`Edit by hand`}
             </button>
             <button type="button" class="button wide" onClick={() => showText(null)}>
-              <Icon name="text" /> {t`Add from text`}
+              <Icon name="text" /> {t`Write as text`}
             </button>
           </div>
         </>

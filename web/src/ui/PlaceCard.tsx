@@ -13,6 +13,7 @@ import {
   place,
   placingOf,
   seemsDrawnIn,
+  seemsFront,
   seemsUp,
 } from '../session/placing';
 import { document, task } from '../session/session';
@@ -46,7 +47,7 @@ export function PlaceOffer() {
   const now = placingOf(model.files);
   const up = seemsUp(model.shape);
   const metres = seemsDrawnIn(model.shape, now);
-  const front = fronts.value.get(model.files) ?? '+z';
+  const front = fronts.value.get(model.files) ?? seemsFront(model.shape);
   if (up === null && metres === null && front === '+z') return null;
   const [, height] = extentOf(model.shape);
   const longest = Math.max(...extentOf(model.shape));

@@ -99,7 +99,7 @@ export function ProgramDialog() {
             <Icon name="warning" /> {t`Line ${error.line}, column ${error.column}: ${error.cause}; ${error.fix}.`}
           </button>
         )}
-        {tooMany && <span class="error">{t`There should be one layer here. Add others by “Add from text”.`}</span>}
+        {tooMany && <span class="error">{t`There should be one layer here. Add others by “Write as text”.`}</span>}
         {layers.length > 0 && !tooMany && (
           <span class="quiet">{t`${countWords(layers)}, all of it fits this model.`}</span>
         )}

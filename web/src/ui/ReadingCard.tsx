@@ -7,6 +7,7 @@ import type { Answer } from '../llm/session';
 import { costOf, isDemo } from '../llm/settings';
 import type { Hint } from '../program/operators';
 import type { Layer, Shape, Statement } from '../program/types';
+import { isDivisible } from '../session/divide';
 import { type Understood, whyUndecided } from '../session/request';
 import {
   applyRequest,
@@ -14,6 +15,7 @@ import {
   chooseReading,
   correctEdit,
   dismiss,
+  divideRequest,
   requestLayer,
   requestText,
 } from '../session/requests';
@@ -69,6 +71,7 @@ export function ReadingCard({ state }: { state: Understood }) {
       <SidesRead state={state} />
       {state.plain !== null && <Plainly state={state} />}
       {note && <p class="quiet note-line">{note}</p>}
+      {layer !== null && isDivisible(state) && <Divided count={state.edit?.seed.length ?? 0} />}
       {open.value && <Corrections state={state} />}
     </section>
   );
@@ -111,6 +114,23 @@ function Plainly({ state }: { state: Understood }) {
         </button>
       </p>
     </>
+  );
+}
+
+/** Says that one slider does several things, and gives each its own. */
+function Divided({ count }: { count: number }) {
+  return (
+    <p class="plainly">
+      <span class="quiet grow">{plural(count, '{n} change by one slider', '{n} changes by one slider')}</span>
+      <button
+        type="button"
+        class="button"
+        disabled={task.value !== null}
+        onClick={() => void divideRequest((statement) => statementWords(document.peek(), statement))}
+      >
+        {t`A slider for each`}
+      </button>
+    </p>
   );
 }
 

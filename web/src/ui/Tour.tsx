@@ -15,7 +15,7 @@ export function TourOffer() {
   const { model, layers } = document.value;
   if (offered.value || step.value !== null || model === null || layers.length > 1) return null;
   return (
-    <section class="panel note tour-offer" aria-label={t`Tour`}>
+    <section class="panel note tour-offer tour-first" aria-label={t`Tour`}>
       <span>{t`New here?`}</span>
       <button type="button" class="button" onClick={startTour}>
         {t`Show me around`}

@@ -68,11 +68,15 @@ export function mountStage(canvas: HTMLCanvasElement): () => void {
     effect(() => void showModel(created)),
     effect(() => {
       step.value;
-      shown.value;
-      const evaluator = untracked(currentEvaluator);
-      if (evaluator) created.update(evaluator);
+      const shape = shown.value;
+      // While another model is being loaded, the one that is shown stays as it was drawn last.
+      const isCurrent = untracked(() => document.value.model?.shape) === shape;
+      const evaluator = isCurrent ? untracked(currentEvaluator) : null;
+      const isPulled = pull.value !== null;
+      if (evaluator === null) return;
+      created.update(evaluator);
       // A hand that pulls must not have the view move below it; once it lets go, it may.
-      if (pull.value === null && shownFiles !== null) created.keepInView();
+      if (!isPulled && shownFiles !== null) created.keepInView();
     }),
     effect(() => {
       const { hidden, model } = document.value;
