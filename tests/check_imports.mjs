@@ -30,9 +30,9 @@ const rooms = {
     rule: 'scene draws what it is given; it knows neither the session nor the core',
   },
   formats: {
-    may: ['program/cut'],
+    may: ['program/cut', 'carve/geometry', 'carve/matrix'],
     packages: ['three', '@gltf-transform', 'fflate'],
-    rule: 'formats makes a GLB of files of other formats and nothing else; it also runs where there is no page',
+    rule: 'formats makes GLBs of files of other formats, and such files of GLBs; it also runs where there is no page',
   },
   carve: {
     may: ['formats/read_gltf'],

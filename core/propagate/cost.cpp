@@ -12,8 +12,9 @@ namespace {
 /// A part that is stretched by more than this factor is distorted.
 constexpr double largest_stretch = 2.5;
 constexpr double distorted = 3;
-/// Of an axis as long as the part, and on top for one that is thin beside it: legs get longer before they get thicker.
-constexpr double strain_along = 0.3, strain_across = 2;
+/// Of an axis as long as the part, and on top for one that is thin beside it: legs get longer before they get thicker. At 2
+/// the ends of a box whose sides get longer get thicker, as they run into the sides; at 4 three edits of 240 come apart.
+constexpr double strain_along = 0.3, strain_across = 3;
 /// Points and axes of another part: dearer than its own of the same kind.
 constexpr double price_of_borrowing = 0.5;
 

@@ -91,7 +91,7 @@ async function open(model: Buffer, name: string) {
 
 it('257,000 triangles', async () => {
   const { page, measure, x, y } = await open(ballsOf(1, 254), 'ball.glb');
-  await measure('first click, 257k triangles', async () => {
+  await measure('first click among 257k triangles', async () => {
     await page.mouse.click(x, y);
     await page.waitForFunction(() => parsel.selected().length > 0);
   });

@@ -1,6 +1,6 @@
 // Files of other formats in the built page: dropped with what belongs to them, edited as a GLB is, and opened again.
 import { readFile } from 'node:fs/promises';
-import { zipSync } from 'fflate';
+import { unzipSync, zipSync } from 'fflate';
 import type { Page } from 'playwright-core';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { DebugHandle } from '../../web/src/ui/debug';
@@ -80,10 +80,19 @@ describe('a file of another format', () => {
     expect(await page.evaluate(() => parsel.document().model?.files.name)).toBe('table');
     await expect
       .poll(() => page.locator('.status-line').getByRole('status').textContent())
-      .toBe('The file was made a GLB; what you export will be one, no OBJ.');
+      .toBe('The file was made a GLB; it can be exported as one, or as OBJ again.');
     const written = await readFile(await download(page, 'Edited model'));
     expect(written.subarray(0, 4).toString()).toBe('glTF');
     expect(written.includes(redPng)).toBe(true);
+
+    const path = await download(page, 'Edited as OBJ');
+    expect(path).toMatch(/table-edited\.zip$/);
+    const again = unzipSync(await readFile(path));
+    expect(Object.keys(again)).toEqual(['table-edited.obj', 'table-edited.mtl', 'table-edited_1.png']);
+    expect(Buffer.from(again['table-edited_1.png'] ?? []).equals(redPng)).toBe(true);
+    await pick(page, [file('table-edited.zip', await readFile(path))]);
+    await page.waitForFunction(() => parsel.document().model?.files.name === 'table-edited');
+    expect(await labels()).toEqual(['top', 'leg']);
     expect(complaints).toEqual([]);
   });
 
@@ -102,6 +111,10 @@ describe('a file of another format', () => {
     expect(await labels()).toEqual(['near', 'far']);
     expect(await page.locator('.part').count()).toBe(2);
     const first = await hash();
+    const again = await readFile(await download(page, 'Edited as STL'));
+    expect(again.toString().match(/^solid .*$/gm)).toEqual(['solid near', 'solid far']);
+    const cornersIn = (text: string) => [...text.matchAll(/vertex (.*)/g)].map(([, corner]) => corner);
+    expect(cornersIn(again.toString())).toEqual(cornersIn(pyramids.toString()));
     const work = await readFile(await download(page, 'Session'));
     await saved(page);
     await page.reload();

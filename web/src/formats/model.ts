@@ -98,6 +98,12 @@ export function linear(channel: number): number {
   return rounded(clamped <= 0.04045 ? clamped / 12.92 : ((clamped + 0.055) / 1.055) ** 2.4);
 }
 
+/** A channel of linear light as sRGB; both 0 to 1. */
+export function nonLinear(channel: number): number {
+  const clamped = Math.min(Math.max(channel, 0), 1);
+  return rounded(clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * clamped ** (1 / 2.4) - 0.055);
+}
+
 /** To six digits. */
 export const rounded = (value: number): number => Math.round(value * 1e6) / 1e6;
 

@@ -1,11 +1,13 @@
 // The family of any model whose parts are boxes along the axes, as hexahedra are at rest or after an edit: what the core
 // takes for a CAD program (`parsel/cad`), and a state of all sliders as a variation of it (`parsel/variations`). Lengths are
 // in metres, in the file's own frame. What is asked of the core is no other than for a program.
+import * as v from 'valibot';
 import type { Shape } from '../program/types';
 import type { CadSource } from '../scene/load';
 import { t } from '../texts/texts';
+import { type Boxes, type Instance, rounded } from './box_rounding';
 import { partKey } from './document';
-import type { FoundFamily } from './family_found';
+import type { FoundFamily, Variations } from './family_found';
 
 /** [lowest, highest] along x, y and z. */
 export type Bounds = readonly (readonly [number, number])[];
@@ -91,6 +93,70 @@ export function boxProgram(
       remarks: [],
       of: 'hexahedra',
     },
+  };
+}
+
+const pair = v.tuple([v.number(), v.number()]);
+const programSchema = v.looseObject({
+  parts: v.array(v.looseObject({ id: v.string(), centre: v.array(v.number()), size: v.array(v.number()) })),
+});
+const variationsSchema = v.looseObject({
+  variations: v.array(
+    v.looseObject({
+      bounds: v.optional(v.record(v.string(), v.tuple([pair, pair, pair])), {}),
+      values: v.optional(v.record(v.string(), v.number()), {}),
+      absent: v.optional(v.array(v.string()), []),
+    }),
+  ),
+});
+
+/** What the core is asked about. */
+export interface Asked {
+  readonly cad: unknown;
+  readonly variations: Variations;
+}
+
+/**
+ * A program and its variations as the core is asked about them: those of boxes with what is one in all of them within a
+ * tolerance made equal (box_rounding.ts). What is not understood stays as it is: the core says what is wrong with it.
+ * @param scale the half-diagonal of the model, in metres
+ */
+export function askedOf(base: CadSource, variations: Variations, scale: number): Asked {
+  const asked = { cad: base.program, variations };
+  const program = v.safeParse(programSchema, base.program);
+  const list = v.safeParse(variationsSchema, variations);
+  if (base.of !== 'hexahedra' || !program.success || !list.success) return asked;
+  const { parts } = program.output;
+  const own = (centre: readonly number[], size: readonly number[]): Boxes[number] =>
+    [0, 1, 2].map((k) => [(centre[k] ?? 0) - (size[k] ?? 0) / 2, (centre[k] ?? 0) + (size[k] ?? 0) / 2] as const);
+  const instances: Instance[] = [
+    parts.map(({ centre, size }) => own(centre, size)),
+    ...list.output.variations.map(({ bounds, values, absent }) =>
+      parts.map(({ id, centre, size }) => {
+        if (absent.includes(id)) return null;
+        const box = bounds[id] ?? own(centre, size);
+        const at = (word: string, rest: (low: number, high: number) => number) =>
+          box.map(([low, high], k) => values[`${id}.${word}${'xyz'[k]}`] ?? rest(low, high));
+        return own(
+          at('c', (low, high) => (low + high) / 2),
+          at('s', (low, high) => high - low),
+        );
+      }),
+    ),
+  ];
+  const [first = [], ...others] = rounded(instances, scale);
+  const made = parts.map((part, i) => ({
+    ...part,
+    centre: first[i]?.map(([low, high]) => (low + high) / 2) ?? part.centre,
+    size: first[i]?.map(([low, high]) => high - low) ?? part.size,
+  }));
+  const varied = list.output.variations.map(({ values: _, ...variation }, k) => ({
+    ...variation,
+    bounds: Object.fromEntries(parts.flatMap(({ id }, i) => (others[k]?.[i] ? [[id, others[k][i]]] : []))),
+  }));
+  return {
+    cad: { ...program.output, parts: made },
+    variations: { ...list.output, variations: varied } as unknown as Variations,
   };
 }
 

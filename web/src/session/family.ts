@@ -6,7 +6,7 @@ import { parseJson } from '../program/json';
 import { errorMessage, type Shape } from '../program/types';
 import type { CadSource } from '../scene/load';
 import { plural, t } from '../texts/texts';
-import { type BoundsRead, boxesOf, boxProgram, inFrame } from './box_family';
+import { askedOf, type BoundsRead, boxesOf, boxProgram, inFrame } from './box_family';
 import { type Document, type LayerEntry, nameOf, type OpenModel } from './document';
 import { activeLayers, type Evaluation } from './evaluation';
 import type { Choice, Choices, FamilySource, FamilyState, NamedVariation, Variations } from './family_found';
@@ -73,9 +73,11 @@ async function findFamily(
   choices: Choices,
   options: Pick<RunOptions, 'signal'>,
 ): Promise<FamilySource> {
-  const { found, pictures } = await core.findFamily({ cad: base.program, variations, choices }, options);
+  const asked = askedOf(base, variations, shape.frame.scale);
+  const { found, pictures } = await core.findFamily({ ...asked, choices }, options);
   return {
     base,
+    asked,
     found: base.of === 'hexahedra' ? inFrame(found, shape.frame) : found,
     pictures,
     variations,

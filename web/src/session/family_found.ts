@@ -19,6 +19,8 @@ export type Variations = { readonly variations: readonly NamedVariation[] } | nu
 export interface FamilySource {
   /** The program, or what stands for one: box_family.ts. */
   readonly base: CadSource;
+  /** Program and variations as the core was asked about them. */
+  readonly asked: { readonly cad: unknown; readonly variations: Variations };
   readonly found: FoundFamily;
   /** A GLB of each variation. */
   readonly pictures: readonly Uint8Array[];

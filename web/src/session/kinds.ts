@@ -146,7 +146,8 @@ export function createKinds({ session, models, sourceOf }: KindsParts): KindsAct
       if (read.variation === undefined || variation === undefined) throw new Error(t`The answers hold no numbers`);
       const alone = { cad, variations: read.variation as unknown as Variations, choices: {} };
       const { found, pictures } = await core.findFamily(alone, { signal: run.signal });
-      const family = { base, found, pictures, variations: alone.variations, choices: {} };
+      const { variations } = alone;
+      const family = { base, asked: { cad, variations }, found, pictures, variations, choices: {} };
       const [, picture] = picturesOf(model.files, family);
       if (picture === undefined) throw new Error(t`The answers hold no numbers`);
       setCard(run.stop, name, {

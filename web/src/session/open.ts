@@ -124,7 +124,13 @@ function show(model: OpenModel, work: Work | null, family: FamilySource | null):
 function remarksOn({ files, shape }: OpenModel): string {
   const remarks: string[] = [];
   if (files.converted) {
-    remarks.push(t`The file was made a GLB; what you export will be one, no ${files.converted.format}.`);
+    const { format } = files.converted;
+    const again = ['OBJ', 'STL'].includes(format);
+    remarks.push(
+      again
+        ? t`The file was made a GLB; it can be exported as one, or as ${format} again.`
+        : t`The file was made a GLB; what you export will be one, no ${format}.`,
+    );
     remarks.push(...files.converted.remarks);
   }
   remarks.push(...(files.cad?.remarks ?? []));

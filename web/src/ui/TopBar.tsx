@@ -53,6 +53,8 @@ function exportItems(): MenuItem[] {
       disabled: none || selected.value.length === 0,
       act: () => void exportModel('selected'),
     },
+    { label: t`Edited as OBJ`, hint: '.obj', disabled: none, act: () => void exportModel('all', { as: 'obj' }) },
+    { label: t`Edited as STL`, hint: '.stl', disabled: none, act: () => void exportModel('all', { as: 'stl' }) },
     { label: t`For printing…`, hint: '.stl .3mf', disabled: none, act: () => (dialog.value = 'print') },
     { label: t`Animated by the last slider`, hint: '.glb', disabled: noLayer, act: () => void exportModel('animated') },
     { label: t`Model with sliders`, hint: t`one .glb`, disabled: noLayer, act: () => void exportOneFile() },

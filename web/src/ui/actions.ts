@@ -1,6 +1,7 @@
 // What buttons, keys and drops have in common: opening files, exporting, sharing.
 
 import { type ReadonlySignal, signal } from '@preact/signals';
+import { writtenAs } from '../session/convert';
 import { models } from '../session/core';
 import { isCut } from '../session/cuts';
 import { programOf } from '../session/document';
@@ -130,28 +131,32 @@ interface ExportChoice {
   readonly asItStands?: boolean;
   /** Whether gaps are closed, which is then said; those that parts cannot be made longer for are filled, if asked for. */
   readonly repair?: boolean | 'fill';
+  /** Of which format the file is; else GLB. */
+  readonly as?: 'obj' | 'stl';
 }
 
 export async function exportModel(
   kind: ExportKind,
-  { asItStands = false, repair = false }: ExportChoice = {},
+  { asItStands = false, repair = false, as }: ExportChoice = {},
 ): Promise<void> {
   const { model, unit } = document.peek();
+  const name = `${editedName(modelName())}${{ all: '', selected: '.part', animated: '.animated' }[kind]}`;
   const exported = await run(t`Writing the file`, async (options) => {
     const made = await editedFile(kind, repair !== false, options);
-    if (made === null || model === null || asItStands) return made;
+    if (made === null || model === null) return null;
     const filling = repair === 'fill' ? await filledFile(made.glb, options) : { glb: made.glb, said: '' };
-    return { ...made, said: filling.said, glb: await asItsFile(model.files, filling.glb, options) };
+    const glb = asItStands ? filling.glb : await asItsFile(model.files, filling.glb, options);
+    const other = as === undefined ? null : await writtenAs(as, glb, name, options);
+    return { ...made, said: filling.said, file: other ?? { extension: 'glb', bytes: glb, remarks: [] } };
   });
   if (exported === null || model === null) return;
-  download(
-    `${editedName(modelName())}${{ all: '', selected: '.part', animated: '.animated' }[kind]}.glb`,
-    new Blob([exported.glb as BlobPart], { type: 'model/gltf-binary' }),
-  );
-  const filled = 'said' in exported ? exported.said : '';
+  const { file } = exported;
+  const type = file.extension === 'glb' ? 'model/gltf-binary' : '';
+  download(`${name}.${file.extension}`, new Blob([file.bytes as BlobPart], { type }));
+  const filled = exported.said;
   // Where surfaces were looked at themselves, what boxes say is not the last word.
   const closed = gapSentences(filled === '' ? exported : withoutLeft(exported), model.shape, unit);
-  const said = [closed, filled, ...exported.warnings.slice(0, 3)].filter(Boolean);
+  const said = [closed, filled, ...exported.warnings.slice(0, 3), ...file.remarks].filter(Boolean);
   if (said.length > 0) say(said.join(' '));
 }
 

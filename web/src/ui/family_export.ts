@@ -13,8 +13,7 @@ async function text() {
   if (core === null || model === null || family === undefined) return null;
   const made = await run(t`Writing the program`, () =>
     core.familyText({
-      cad: family.base.program,
-      variations: family.variations,
+      ...family.asked,
       choices: { ...family.choices },
       setting: [...actions.settingNow(family)],
       with: family.found.family.optional.map(({ parts }) => areThere(document.peek(), parts)),

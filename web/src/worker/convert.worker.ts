@@ -1,6 +1,8 @@
-// Lives for one file. See formats/convert.ts; the page's end is session/convert.ts.
+// Lives for one file, to be read or to be written. See formats/convert.ts and write.ts; the page's end is session/convert.ts.
 import { type Converted, convert } from '../formats/convert';
 import type { Format, Source } from '../formats/model';
+import { type Written, type WrittenFormat, written } from '../formats/write';
+import type { Answer } from './once';
 import { holdWatchedLock } from './watch';
 
 holdWatchedLock();
@@ -12,13 +14,29 @@ export interface ConvertRequest {
   readonly limit: number;
 }
 
-type ConvertReply = Converted | { readonly error: string };
+export interface WriteRequest {
+  readonly glb: Uint8Array;
+  readonly to: WrittenFormat;
+  /** Of the files, without extension. */
+  readonly name: string;
+  /** What is going on, as the page says it. */
+  readonly step: string;
+}
 
-self.onmessage = async ({ data }: MessageEvent<ConvertRequest>) => {
+const send = (reply: Answer<Converted | Written>, transfer: Transferable[] = []) =>
+  self.postMessage(reply, { transfer });
+
+self.onmessage = async ({ data }: MessageEvent<ConvertRequest | WriteRequest>) => {
   try {
-    const reply: ConvertReply = await convert(data.source, data.format, data.limit);
-    self.postMessage(reply, { transfer: [reply.glb.buffer] });
+    if ('source' in data) {
+      const reply = await convert(data.source, data.format, data.limit);
+      send(reply, [reply.glb.buffer]);
+    } else {
+      const { glb, to, name, step } = data;
+      const reply = await written(glb, to, name, (done, total) => send({ progress: { step, done, total } }));
+      send(reply, [reply.bytes.buffer]);
+    }
   } catch (error) {
-    self.postMessage({ error: error instanceof Error ? error.message : String(error) } satisfies ConvertReply);
+    send({ error: error instanceof Error ? error.message : String(error) });
   }
 };
