@@ -30,6 +30,15 @@ describe('without Redis', () => {
     expect(said).not.toContain('secret');
   });
 
+  it('nothing is begun, nor a result written of a line that is no job', () => {
+    bench.write('bad.jsonl', 'no job\n{"id": "one", "model": "chair.glb"}\n');
+    const { code } = bench.run('batch', 'bad.jsonl', '-o', 'unbegun', '--queue', 'redis://127.0.0.1:1');
+    expect(code).toBe(1);
+    expect(bench.written('unbegun').size).toBe(0);
+    const again = bench.run('batch', 'bad.jsonl', '-o', 'unbegun', '--queue', 'redis://127.0.0.1:1');
+    expect(again.said).toMatch(/no Redis answers there/); // not that there are results already
+  });
+
   it('an address of something else is refused', () => {
     const { code, said } = bench.run('worker', 'http://127.0.0.1');
     expect(code).toBe(1);

@@ -139,6 +139,35 @@ describe('proposals', () => {
     });
   });
 
+  it('are composed onto each other and onto the edits that are there when they are kept', async () => {
+    const { session, core, proposals, start, layers } = ready(['left', 'right']);
+    session.addProgram(moving('left'), 'before');
+    const firsts: number[] = [];
+    core.compose = async (_, program, first) => {
+      firsts.push(first);
+      const statements = (layer: (typeof program.layers)[number]) =>
+        layer.statements.map((one) => ({ ...one, amount: `2*${layer.parameter.name}` }) as typeof one);
+      return { ...program, layers: program.layers.map((layer) => ({ ...layer, statements: statements(layer) })) };
+    };
+    await start();
+    proposals.keepAll();
+    const amounts = () =>
+      session.document.value.layers.map(({ layer }) => {
+        const [first] = layer.statements;
+        return first && 'amount' in first ? first.amount : undefined;
+      });
+    await vi.waitFor(() =>
+      expect(
+        amounts()
+          .slice(1)
+          .every((amount) => amount?.startsWith('2*')),
+      ).toBe(true),
+    );
+    expect(firsts).toEqual([1]);
+    session.undo();
+    expect(layers()).toEqual(['']);
+  });
+
   it('offer to let parts follow that were to stay, where nothing breaks then', async () => {
     const { core, proposals, start } = ready(['left']);
     const read = core.readReplies;

@@ -58,14 +58,15 @@ export async function throughQueue(batch: Batch, url: string): Promise<void> {
     remaining.delete(id);
     batch.done(result);
   };
+  // Before anything is written: without a Redis nothing is begun.
+  const connected = batch.todo.some(({ fault }) => fault === null) ? await connect(url) : null;
   for (const [id, entry] of remaining) {
     if (entry.fault === null) continue;
     const result = faultResult(entry, entry.fault, 0, 0);
     store.commit(entry, store.aside(), result);
     finish(id, result);
   }
-  if (remaining.size === 0) return;
-  const connected = await connect(url);
+  if (connected === null) return;
   const queue = new connected.Queue(queueName, { connection: connected.connection() });
   const troubles = new Troubles(progress, url);
   queue.on('error', (error) => troubles.hear(error));

@@ -6,7 +6,7 @@ import { parseJson } from '../program/json';
 import { errorMessage, type Shape } from '../program/types';
 import type { CadSource } from '../scene/load';
 import { plural, t } from '../texts/texts';
-import { askedOf, type BoundsRead, boxesOf, boxProgram, inFrame } from './box_family';
+import type { BoundsRead, boxesOf } from './box_family';
 import { type Document, type LayerEntry, nameOf, type OpenModel } from './document';
 import { activeLayers, type Evaluation } from './evaluation';
 import type { Choice, Choices, FamilySource, FamilyState, NamedVariation, Variations } from './family_found';
@@ -61,6 +61,9 @@ function variationsIn(bytes: Uint8Array): unknown {
   return read.value;
 }
 
+/** Not among what is fetched first: few open a program, or keep a variation. */
+const boxFamily = () => import('./box_family');
+
 /** What parts are called that nobody has renamed. */
 const nameIn = (shape: Shape) => (id: string) => shape.parts.find((part) => part.id === id)?.name ?? id;
 
@@ -73,6 +76,7 @@ async function findFamily(
   choices: Choices,
   options: Pick<RunOptions, 'signal'>,
 ): Promise<FamilySource> {
+  const { askedOf, inFrame } = await boxFamily();
   const asked = askedOf(base, variations, shape.frame.scale);
   const { found, pictures } = await core.findFamily({ ...asked, choices }, options);
   return {
@@ -98,7 +102,8 @@ export async function familyOf(
   const own =
     cad === undefined ? null : () => findFamily(core, cad, shape, cad.variations as Variations, none, options);
   if (saved === undefined) return own?.() ?? null;
-  const boxes = cad === undefined && saved.variations !== undefined ? boxProgram(shape, nameIn(shape)) : null;
+  const ofBoxes = cad === undefined && saved.variations !== undefined;
+  const boxes = ofBoxes ? (await boxFamily()).boxProgram(shape, nameIn(shape)) : null;
   const base = cad ?? (boxes?.ok ? boxes.base : null);
   if (base === null) return null;
   try {
@@ -285,6 +290,7 @@ export function createFamily(
   }
 
   async function keepVariation(core: ModelCore, name: string): Promise<boolean> {
+    const { boxProgram, boxesOf } = await boxFamily();
     const { family, model, hidden } = document.peek();
     if (model === null) return false;
     const moved = activeLayers(document.peek()).some(({ key, value }) => !family?.keys.includes(key) && value !== 0);
@@ -306,7 +312,7 @@ export function createFamily(
       const values = parametersAt(family, settingNow(family));
       return addVariations(core, [{ name, source: 'hand', values, absent } as NamedVariation]);
     }
-    const boxes = boxesNow(model);
+    const boxes = boxesNow(model, boxesOf);
     if (!boxes.ok) {
       say(boxes.text, 'error');
       return false;
@@ -318,11 +324,11 @@ export function createFamily(
   }
 
   /** The boxes of the parts where all sliders stand; refused where there are others, or more, than at rest. */
-  function boxesNow({ shape }: OpenModel): BoundsRead {
+  function boxesNow({ shape }: OpenModel, read: typeof boxesOf): BoundsRead {
     const named = (id: string) => nameOf(document.peek(), id);
     const state = compiled.peek();
     if (state.kind === 'refused') return { ok: false, text: state.text };
-    if (state.kind === 'none') return boxesOf(shape, [], named);
+    if (state.kind === 'none') return read(shape, [], named);
     const { groups, corners } = state.evaluator;
     const changed = groups.find((group) => group !== null && group.count !== group.relation.parts.length);
     if (changed) {
@@ -331,7 +337,7 @@ export function createFamily(
         text: t`A variation has as many parts as the model: put the number of “${named(changed.relation.parent)}” back first.`,
       };
     }
-    return boxesOf(shape, corners, named);
+    return read(shape, corners, named);
   }
 
   async function addVariations(core: ModelCore, added: readonly NamedVariation[]): Promise<boolean> {

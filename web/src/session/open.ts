@@ -142,7 +142,7 @@ function remarksOn({ files, shape }: OpenModel): string {
   // Of the whole, nothing was left out; that it is one part, the offer to split it says.
   const isOfWhole = ({ place }: { readonly place: string }) => place === 'file';
   for (const { text } of shape.warnings.filter(isOfWhole)) {
-    if (!text.startsWith('the model is one part')) remarks.push(`${text.charAt(0).toUpperCase()}${text.slice(1)}.`);
+    if (!/^the model is one part/.test(text)) remarks.push(`${text.charAt(0).toUpperCase()}${text.slice(1)}.`);
   }
   const others = shape.warnings.filter((warning) => !isOfWhole(warning));
   const left = others.map(({ place, text }) => `${place}: ${text}`).slice(0, 3);

@@ -200,6 +200,14 @@ export function createProposals({ session, models, askerOf }: ProposalsParts): P
     return one?.state.kind === 'found' ? { one, found: one.state.found } : null;
   };
 
+  /** Layers from one on are worked out on what those before them leave, in the step that added them. */
+  function compose(key: number): void {
+    const core = models.peek();
+    if (core === null) return;
+    session.useCore(core);
+    void session.restack(key);
+  }
+
   function standing(key: number): number {
     const showing = shown.value;
     if (showing?.key !== key || draft.value?.key !== showing.entry.key) return 0;
@@ -266,8 +274,9 @@ export function createProposals({ session, models, askerOf }: ProposalsParts): P
       return batch(() => {
         unshow();
         const layer = session.addProgram(program, one.request, madeBy(found))?.[0] ?? null;
-        if (layer !== null)
-          changeAll((all) => all.map((other) => (other.key === key ? { ...other, kept: layer } : other)));
+        if (layer === null) return null;
+        changeAll((all) => all.map((other) => (other.key === key ? { ...other, kept: layer } : other)));
+        compose(layer);
         return layer;
       });
     },
@@ -291,6 +300,7 @@ export function createProposals({ session, models, askerOf }: ProposalsParts): P
         changeAll((all) =>
           all.map((one) => (keptAs.has(one.key) ? { ...one, kept: keptAs.get(one.key) ?? null } : one)),
         );
+        if (keys[0] !== undefined) compose(keys[0]);
         return keys;
       });
     },
