@@ -15,9 +15,9 @@ const headless = '../headless/src/';
 /** room: the rooms, or single files of them, and the packages that it may import, and why. */
 const rooms = {
   program: {
-    may: [],
+    may: ['../../core/edit/operators.json'],
     packages: ['valibot'],
-    rule: 'program reads, checks and evaluates programs and nothing else; it also runs where there is no page',
+    rule: 'program reads, checks and evaluates programs, by the table of operators, and nothing else; it also runs where there is no page',
   },
   texts: {
     may: [],

@@ -7,6 +7,7 @@
 #include "core/check/check_scope.h"
 #include "core/check/check_trace.h"
 #include "core/check/replay.h"
+#include "core/check/replay_operator.h"
 #include "core/check/tie.h"
 
 namespace parsel {
@@ -111,13 +112,10 @@ class Checker {
       return;
     }
     if (!replay_.part(s.part)) find(place + "/part", "no part of the shape", choose_name);
-    const bool origin =
-        s.op == Op::rotate || s.op == Op::shear || s.op == Op::scale_1d || s.op == Op::scale_2d || s.op == Op::scale_3d;
-    const bool direction = s.op == Op::translate || s.op == Op::rotate || s.op == Op::scale_1d || s.op == Op::shear;
-    const bool normal = s.op == Op::scale_2d || s.op == Op::shear;
-    if (origin && !s.origin) find(place, "the operator needs an origin", complete);
-    if (direction && !s.direction) find(place, "the operator needs a direction", complete);
-    if (normal && !s.normal) find(place, "the operator needs a normal", complete);
+    const replay::Needs needs = replay::needs_of(s.op);
+    if (needs.origin && !s.origin) find(place, "the operator needs an origin", complete);
+    if (needs.direction && !s.direction) find(place, "the operator needs a direction", complete);
+    if (needs.normal && !s.normal) find(place, "the operator needs a normal", complete);
     if (s.origin && std::holds_alternative<PartPoint>(*s.origin) &&
         !replay_.part(std::get<PartPoint>(*s.origin).part)) {
       find(place + "/origin", "refers to no part of the shape", choose_name);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/tolerance.h"
+#include "core/check/replay_operator.h"
 
 namespace parsel::replay {
 
@@ -41,25 +42,6 @@ Vec3 axis_of(const Box& box, int axis) {
   LocalTriple minus{0, 0, 0};
   minus[static_cast<std::size_t>(axis)] = -1;
   return feature_centre(box, plus) - feature_centre(box, minus);
-}
-
-/// Every geometric operator is p → o + M (p - o) + t.
-struct Affine {
-  Mat3 matrix = Mat3::Identity();
-  Vec3 origin = Vec3::Zero(), shift = Vec3::Zero();
-  Vec3 operator()(const Vec3& p) const { return origin + matrix * (p - origin) + shift; }
-};
-
-Affine affine_of(Op op, const Vec3& origin, const Vec3& direction, const Vec3& normal, double amount) {
-  Affine map;
-  map.origin = origin;
-  if (op == Op::translate) map.shift = amount * direction;
-  if (op == Op::rotate) map.matrix = rotation(direction, amount);
-  if (op == Op::scale_1d) map.matrix += amount * direction * direction.transpose();
-  if (op == Op::scale_2d) map.matrix += amount * (Mat3::Identity() - normal * normal.transpose());
-  if (op == Op::scale_3d) map.matrix *= 1 + amount;
-  if (op == Op::shear) map.matrix += amount * direction * normal.transpose();
-  return map;
 }
 
 bool in_feature(int k, const LocalTriple& feature) {

@@ -77,7 +77,4 @@ Box box_of(const Corners& corners);
 /// Weights of the corners at a point in local coordinates.
 std::array<double, 8> blend(const Vec3& u);
 
-/// About a unit vector, right-handed.
-Mat3 rotation(const Vec3& n, double angle);
-
 }  // namespace parsel::replay

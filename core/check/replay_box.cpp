@@ -37,10 +37,4 @@ std::array<double, 8> blend(const Vec3& u) {
   return weights;
 }
 
-Mat3 rotation(const Vec3& n, double angle) {
-  Mat3 skew;
-  skew << 0, -n.z(), n.y(), n.z(), 0, -n.x(), -n.y(), n.x(), 0;
-  return std::cos(angle) * Mat3::Identity() + std::sin(angle) * skew + (1 - std::cos(angle)) * n * n.transpose();
-}
-
 }  // namespace parsel::replay

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/tolerance.h"
+#include "core/check/replay_operator.h"
 
 namespace parsel::replay {
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/edit/operator_table.h"
 #include "core/edit/program_fields.h"
 
 namespace parsel {
@@ -147,8 +148,7 @@ Why why(const json& value, const std::string& place) {
 Statement statement(const json& value, const std::string& place) {
   if (!value.is_object()) refuse(place, "it is not an object");
   Statement result;
-  result.op = choice(member(value, place, "op"), place + "/op", op_from_string,
-                     "translate, rotate, scale_1d, scale_2d, scale_3d, shear, change_count, change_delta, keep_fixed");
+  result.op = choice(member(value, place, "op"), place + "/op", op_from_string, listed_operators().c_str());
   const std::string op(to_string(result.op));
   for (const char* key : {"part", "relation", "feature", "origin", "direction", "axis", "normal", "anchor", "amount"}) {
     const bool there = value.contains(key);

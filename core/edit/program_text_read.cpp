@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/edit/operator_table.h"
 #include "core/edit/program_fields.h"
 #include "core/edit/text_line.h"
 
@@ -220,10 +221,8 @@ class Reader {
     }
     const auto op = op_from_string(word);
     if (word != "relation" && !op) {
-      line.fail(
-          start, shown(word) + " is no operator",
-          "a line starts with layer, relation, translate, rotate, scale_1d, scale_2d, scale_3d, shear, change_count, "
-          "change_delta or keep_fixed");
+      line.fail(start, shown(word) + " is no operator",
+                "a line starts with layer, relation, " + listed_operators(" or "));
     }
     if (program_.layers.empty())
       line.fail(start, "a layer must come first", "write layer \"…\": x1 = 0 in [-0.35, 0.35]");

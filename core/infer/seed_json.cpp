@@ -226,7 +226,8 @@ json statement(const Shape& shape, const json& loose) {
   if (needs_origin(*op)) out["origin"] = origin(shape, member(loose, "origin"), own, out["feature"]);
   for (const std::string& field : {std::string(direction_field(*op)), std::string("normal")}) {
     if (presence(*op, field) == Presence::refused) continue;
-    const json& value = *op == Op::shear ? member(loose, field.c_str()) : given_direction(loose, field);
+    const bool has_both = needs_direction(*op) && needs_normal(*op);
+    const json& value = has_both ? member(loose, field.c_str()) : given_direction(loose, field);
     out[field] = direction(shape, value, own, "/" + field);
   }
   return out;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "core/edit/operator_table.h"
 #include "core/infer/inference.h"
 #include "core/infer/names.h"
 #include "core/infer/reply_block.h"
@@ -20,7 +21,8 @@ constexpr std::size_t most_hints = 1'000;
 std::optional<Hint> hint_named(const json& value) {
   if (!value.is_string()) return std::nullopt;
   const std::string word = lower_case(value.get<std::string>());
-  return hint_from_string(word.starts_with("scale_") ? "scale" : word);
+  const auto op = op_from_string(word);
+  return hint_from_string(op ? hint_of(*op) : word);
 }
 
 Result<Hints> hints_of(const Shape& shape, const json& block) {

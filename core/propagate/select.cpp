@@ -7,6 +7,8 @@
 #include <optional>
 #include <tuple>
 
+#include "core/edit/operator_table.h"
+
 namespace parsel {
 
 namespace {
@@ -37,12 +39,6 @@ Mat3 best_rotation(const Mat3& covariance) {
   Mat3 v = svd.matrixV();
   if ((v * svd.matrixU().transpose()).determinant() < 0) v.col(2) *= -1;
   return v * svd.matrixU().transpose();
-}
-
-int preference_of(Op op) {
-  constexpr std::array<Op, 7> order = {Op::translate, Op::rotate,   Op::change_delta, Op::scale_1d,
-                                       Op::scale_2d,  Op::scale_3d, Op::shear};
-  return static_cast<int>(std::find(order.begin(), order.end(), op) - order.begin());
 }
 
 /// Whether opposite corners lie about the centre, as they do in a box and in what an affine map makes of one.

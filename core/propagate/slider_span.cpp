@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/tolerance.h"
+#include "core/edit/operator_table.h"
 #include "core/propagate/transfer.h"
 
 namespace parsel {
@@ -95,14 +96,26 @@ bool leans(const Shape& shape, PartIndex part, const ResolvedOperator& turn) {
   return centre.y() > standing * centre.norm();
 }
 
+/// Unit directions in which a scale lets a part grow: along its direction, across its normal, else everywhere.
+std::vector<Vec3> ways_of_growth(const ResolvedOperator& scale) {
+  if (needs_direction(scale.op)) return {scale.direction};
+  std::vector<Vec3> ways;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 unit = Vec3::Unit(axis);
+    const Vec3 across = needs_normal(scale.op) ? Vec3(unit - scale.normal[axis] * scale.normal) : unit;
+    if (across.norm() > noise) ways.push_back(across.normalized());
+  }
+  return ways;
+}
+
 /// Nothing for keep_fixed.
 std::optional<AmountSpan> worth_having(const Shape& shape, const Layer& layer, const Statement& seed) {
   const auto target = part_of(shape, seed);
   if (!target) return std::nullopt;
   const ResolvedOperator what = to_step(shape, seed).what;
   const Corners& corners = shape.parts[*target].hexahedron.corners;
-  switch (seed.op) {
-    case Op::translate: {
+  switch (amount_unit(seed.op)) {
+    case AmountUnit::length: {
       const double own = extent_along(corners, what.direction);
       if (what.feature == LocalTriple{0, 0, 0})
         return both_ways(std::max(own, extent_of_model(shape, what.direction) / 2));
@@ -113,35 +126,24 @@ std::optional<AmountSpan> worth_having(const Shape& shape, const Layer& layer, c
       const double longer = std::max(own, visible), shorter = own / 2;
       return side > 0 ? AmountSpan{-shorter, longer} : AmountSpan{-longer, shorter};
     }
-    case Op::rotate:
+    case AmountUnit::angle:
       return both_ways(only_turns(layer) && !leans(shape, *target, what) ? open : lean);
-    case Op::scale_1d:
-      return scaled(extent_along(corners, what.direction, what.feature));
-    case Op::scale_2d: {
+    case AmountUnit::ratio: {
       double widest = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        const Vec3 across = Vec3::Unit(axis) - what.normal[axis] * what.normal;
-        if (across.norm() > noise) widest = std::max(widest, extent_along(corners, across.normalized(), what.feature));
-      }
+      for (const Vec3& way : ways_of_growth(what)) widest = std::max(widest, extent_along(corners, way, what.feature));
       return scaled(widest);
     }
-    case Op::scale_3d: {
-      double widest = 0;
-      for (int axis = 0; axis < 3; ++axis)
-        widest = std::max(widest, extent_along(corners, Vec3::Unit(axis), what.feature));
-      return scaled(widest);
-    }
-    case Op::shear:
+    case AmountUnit::slope:
       return both_ways(std::tan(lean));
-    case Op::change_count: {
+    case AmountUnit::count: {
       const auto relation = shape.find_relation(seed.relation);
       const double count = relation ? static_cast<double>(shape.relations[*relation].parts.size()) : 0;
       // Rounded down: a little more than twice, so that twice is reached.
       return AmountSpan{-std::floor(count / 2), count + 0.5};
     }
-    case Op::change_delta:
+    case AmountUnit::spacing:
       return AmountSpan{half, twice};
-    case Op::keep_fixed:
+    case AmountUnit::none:
       return std::nullopt;
   }
   return std::nullopt;

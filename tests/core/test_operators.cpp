@@ -6,6 +6,9 @@
 #include <set>
 
 #include "core/base/random.h"
+#include "core/check/replay_operator.h"
+#include "core/edit/operator_table.h"
+#include "core/propagate/candidates.h"
 #include "core/shape/hexahedron.h"
 
 using namespace parsel;
@@ -111,4 +114,21 @@ TEST_CASE("operators are the affine maps of the paper on the selected corners an
       CHECK((still - before).cwiseAbs().maxCoeff() < 1e-15);
     }
   }
+}
+
+TEST_CASE("the table gives every operator a name of its own, a hint that exists, and what the checker says it needs") {
+  std::set<std::string_view> names;
+  for (int i = 0; i <= static_cast<int>(Op::keep_fixed); ++i) {
+    const Op op = static_cast<Op>(i);
+    CAPTURE(to_string(op));
+    CHECK(op_from_string(to_string(op)) == op);
+    CHECK(names.insert(to_string(op)).second);
+    CHECK(hint_from_string(hint_of(op)).has_value());
+    const replay::Needs needs = replay::needs_of(op);
+    CHECK(needs_origin(op) == needs.origin);
+    CHECK(needs_direction(op) == needs.direction);
+    CHECK(needs_normal(op) == needs.normal);
+  }
+  CHECK(listed_operators(" or ") ==
+        "translate, rotate, scale_1d, scale_2d, scale_3d, shear, change_count, change_delta or keep_fixed");
 }

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/base/sha256.h"
-#include "core/edit/operators.h"
+#include "core/edit/operator_table.h"
 #include "core/gallery/gallery.h"
 #include "core/infer/cad_task.h"
 #include "core/infer/prompt_texts.h"
@@ -152,8 +152,15 @@ TEST_CASE("the schemas describe objects and know the tasks' fields") {
   const nlohmann::json seed = reply_schema(seed_edit_task);
   CHECK(seed["oneOf"][0]["properties"].contains("edits"));
   CHECK(seed["oneOf"][1]["properties"].contains("unclear"));
-  for (const auto& op : seed["$defs"]["edit"]["properties"]["op"]["enum"]) {
-    CHECK(op_from_string(op.get<std::string>()).has_value());
+  const nlohmann::json& ops = seed["$defs"]["edit"]["properties"]["op"]["enum"];
+  const nlohmann::json told = reply_schema(type_hints_task);
+  const nlohmann::json& hints = told["properties"]["hints"]["additionalProperties"]["enum"];
+  CHECK(ops.size() == 8);  // all that change something
+  CHECK(hints.size() == 7);
+  for (const auto& op : ops) {
+    const auto named = op_from_string(op.get<std::string>());
+    REQUIRE(named);
+    CHECK(std::count(hints.begin(), hints.end(), hint_of(*named)) == 1);
   }
 }
 

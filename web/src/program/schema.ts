@@ -1,5 +1,6 @@
 // The structure of `parsel/program` v1 as a strict schema: every key is known, every list bounded, every number finite.
 import * as v from 'valibot';
+import { fieldsOf, geometricOperators, groupOperators } from './operators';
 import { isParameterName } from './parse';
 import {
   anchors,
@@ -9,6 +10,7 @@ import {
   type PointReference,
   type Program,
   type Sign,
+  type Statement,
   type Vec3,
   whyKinds,
 } from './types';
@@ -71,18 +73,17 @@ const why = v.strictObject({
 const reason = { why: v.exactOptional(why) };
 const geometric = { part: name, feature: v.optional(triple, [0, 0, 0]), amount: v.string(), ...reason };
 const group = { relation: name, anchor: v.optional(v.picklist(anchors), 'middle'), amount: v.string(), ...reason };
+const kinds = { point, direction };
 
+// Its type is said by types.ts: of a table only tests can tell that it says the same (tests/web/operators.test.ts).
 const statement = v.variant('op', [
-  v.strictObject({ op: v.literal('translate'), ...geometric, direction }),
-  v.strictObject({ op: v.literal('rotate'), ...geometric, origin: point, axis: direction }),
-  v.strictObject({ op: v.literal('scale_1d'), ...geometric, origin: point, direction }),
-  v.strictObject({ op: v.literal('scale_2d'), ...geometric, origin: point, normal: direction }),
-  v.strictObject({ op: v.literal('scale_3d'), ...geometric, origin: point }),
-  v.strictObject({ op: v.literal('shear'), ...geometric, origin: point, normal: direction, direction }),
-  v.strictObject({ op: v.literal('change_count'), ...group }),
-  v.strictObject({ op: v.literal('change_delta'), ...group }),
+  ...geometricOperators.map((op) => {
+    const own = Object.entries(fieldsOf(op)).map(([field, kind]) => [field, kinds[kind]]);
+    return v.strictObject({ op: v.literal(op), ...geometric, ...Object.fromEntries(own) });
+  }),
+  ...groupOperators.map((op) => v.strictObject({ op: v.literal(op), ...group })),
   v.strictObject({ op: v.literal('keep_fixed'), part: name, ...reason }),
-]);
+]) as unknown as v.GenericSchema<unknown, Statement>;
 
 const parameter = v.strictObject({
   name: v.pipe(

@@ -1,5 +1,6 @@
 // Reads the text form of programs (see text.ts) into the JSON form, which check.ts then judges: only the form of the text
 // is decided here, not what it means. The C++ reader is core/edit/program_text_read.cpp.
+import { isGroupOperator, operators } from './operators';
 import { limits } from './schema';
 import type { Result } from './types';
 
@@ -141,18 +142,6 @@ class Line {
 
 type Fields = Record<string, unknown>;
 
-const operators = [
-  'translate',
-  'rotate',
-  'scale_1d',
-  'scale_2d',
-  'scale_3d',
-  'shear',
-  'change_count',
-  'change_delta',
-  'keep_fixed',
-];
-
 class Reader {
   private lines = 0;
   private statements = 0;
@@ -195,7 +184,7 @@ class Reader {
     if (word === 'layer') {
       if (this.layers.length === limits.layers) line.fail(at, `more than ${limits.layers} layers`, 'split the program');
       this.layers.push(this.layer(line));
-    } else if (word !== 'relation' && !operators.includes(word)) {
+    } else if (word !== 'relation' && !(operators as readonly string[]).includes(word)) {
       line.fail(at, `"${word}" is no operator`, `start the line with layer, relation, ${operators.join(', ')}`);
     } else if (!layer) {
       line.fail(at, 'a layer must come first', 'write layer "…": x1 = 0 in [-0.35, 0.35]');
@@ -244,7 +233,7 @@ class Reader {
   /** Fields that the operator does not take are left to the schema, which refuses them by name. */
   private statement(line: Line, op: string): Fields {
     line.expect('(');
-    const fields: Fields = { op, [op.startsWith('change_') ? 'relation' : 'part']: line.string() };
+    const fields: Fields = { op, [isGroupOperator(op) ? 'relation' : 'part']: line.string() };
     while (line.take(',')) {
       const at = line.at();
       const key = line.word();

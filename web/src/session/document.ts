@@ -1,4 +1,5 @@
 // What a person works on, as one immutable value: the model, the layers with their values, what is hidden and renamed.
+import type { Hint } from '../program/operators';
 import { byThemselves } from '../program/rest';
 import type { Layer, LocalTriple, Program, Shape, Statement } from '../program/types';
 import type { ModelFiles } from '../scene/load';
@@ -53,8 +54,6 @@ export interface EditInput {
   readonly disabled: readonly string[];
   readonly hints: Readonly<Record<string, Hint>>;
 }
-export const hints = ['translate', 'rotate', 'scale', 'shear', 'change_count', 'change_delta', 'keep_fixed'] as const;
-export type Hint = (typeof hints)[number];
 
 /** Of a preset or a group, in characters. */
 export const nameLimit = 80;

@@ -1,8 +1,9 @@
 // An edit reopened: what was asked for, field by field, what other parts should do; and of a count, its other reading.
 
 import { useSignal } from '@preact/signals';
+import type { Hint } from '../program/operators';
 import { models } from '../session/core';
-import type { EditInput, Hint, LayerEntry } from '../session/document';
+import type { EditInput, LayerEntry } from '../session/document';
 import { editOf } from '../session/layer_seed';
 import { otherCount, remake } from '../session/remake';
 import { document, task } from '../session/session';

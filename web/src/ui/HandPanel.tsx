@@ -3,17 +3,26 @@
 
 import { type Signal, useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
+import { type Hint, hints, isGroupOperator } from '../program/operators';
 import type { Shape } from '../program/types';
 import { models } from '../session/core';
-import { type EditInput, type Hint, hints, nameOf, wholePart } from '../session/document';
+import { type EditInput, nameOf, wholePart } from '../session/document';
 import { playOnce } from '../session/play';
 import { document, propagate, select, selected, selection, task } from '../session/session';
 import { standIns } from '../session/several';
 import { t } from '../texts/texts';
 import { Icon } from './Icon';
-import { operators, SeedFields } from './SeedFields';
-import { firstChoice, isOfGroup, isWhole, seedOf, withPart } from './seed_choice';
-import { type FeatureKind, featureKind, featureWords, hintWords, listWords, relationWords } from './words';
+import { SeedFields } from './SeedFields';
+import { firstChoice, isWhole, seedOf, withPart } from './seed_choice';
+import {
+  type FeatureKind,
+  featureKind,
+  featureWords,
+  hintWords,
+  listWords,
+  operatorWords,
+  relationWords,
+} from './words';
 
 /** Which kind of feature a click in the view selects while this panel is open; null when it is closed. */
 export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind | null>; onDone: () => void }) {
@@ -36,7 +45,7 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
     ...withPart(shape, chosen.value, first),
     feature: selection.value?.feature ?? wholePart,
   };
-  const parts = isOfGroup(choice.op) ? [first] : standing;
+  const parts = isGroupOperator(choice.op) ? [first] : standing;
   const hasOrigin = 'origin' in seedOf(shape, choice);
   const seeds = parts.map((part) =>
     seedOf(shape, hasOrigin && aboutOne.value ? { ...choice, part } : withPart(shape, choice, part)),
@@ -50,11 +59,10 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
       disabled: [...disabled.value],
       hints: Object.fromEntries(chosenHints.value),
     };
-    const label = operators.find(({ id }) => id === choice.op)?.label;
-    const isOfWhole = featureKind(choice.feature) === 'whole' || isOfGroup(choice.op);
+    const isOfWhole = featureKind(choice.feature) === 'whole' || isGroupOperator(choice.op);
     const names = listWords(parts.map((id) => nameOf(document.peek(), id)));
     const what = isOfWhole ? names : t`${featureWords(choice.feature)} of ${names}`;
-    const key = await propagate(models.value, edit, `${label ? t(label) : ''} ${what}`.trim());
+    const key = await propagate(models.value, edit, `${t(operatorWords[choice.op].label)} ${what}`);
     if (key === null) return;
     onDone();
     playOnce(key);
@@ -84,7 +92,7 @@ export function HandPanel({ pickKind, onDone }: { pickKind: Signal<FeatureKind |
       {standing.length > 1 && (
         <div class="together">
           <p class="quiet">
-            {isOfGroup(choice.op)
+            {isGroupOperator(choice.op)
               ? t`Only this one: rows have their number and spacing each for itself.`
               : t`The same for ${listWords(parts.slice(1).map((id) => nameOf(document.value, id)))}.`}
           </p>

@@ -5,9 +5,9 @@ import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Answer } from '../llm/session';
 import { costOf, isDemo } from '../llm/settings';
+import type { Hint } from '../program/operators';
 import type { Layer, Shape, Statement } from '../program/types';
 import { isDivisible } from '../session/divide';
-import type { Hint } from '../session/document';
 import { type Understood, whyUndecided } from '../session/request';
 import {
   applyRequest,

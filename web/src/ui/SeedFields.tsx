@@ -1,35 +1,16 @@
 // The fields of a seed edit: what to do with a part, with which feature of it, along what, from where.
 
 import { useId } from 'preact/hooks';
+import { directionField, fieldsOf, isGroupOperator } from '../program/operators';
 import type { Anchor, LocalTriple, Shape, Statement } from '../program/types';
 import { nameOf } from '../session/document';
 import { axes, mostAlong } from '../session/measure';
 import { document } from '../session/session';
 import { m, type Sentence, t } from '../texts/texts';
-import {
-  choiceOf,
-  groupOfPart,
-  isOfGroup,
-  isWhole,
-  type Operator,
-  type SeedChoice,
-  seedOf,
-  withPart,
-} from './seed_choice';
-import { allFeatures, axisWords, featureKind, featureWords, statementWords } from './words';
+import { choiceOf, groupOfPart, isWhole, type SeedChoice, seedOf, withPart } from './seed_choice';
+import { allFeatures, axisWords, featureKind, featureWords, operatorWords, statementWords } from './words';
 
-export const operators: readonly { readonly id: Operator; readonly label: Sentence; readonly help: Sentence }[] = [
-  { id: 'translate', label: m`Move`, help: m`Moves it along a direction` },
-  { id: 'scale_1d', label: m`Stretch`, help: m`Stretches it along one direction` },
-  { id: 'scale_2d', label: m`Thicken`, help: m`Grows it in the two directions across one` },
-  { id: 'scale_3d', label: m`Grow`, help: m`Grows it in all directions` },
-  { id: 'rotate', label: m`Tilt`, help: m`Turns it about an axis` },
-  { id: 'shear', label: m`Slant`, help: m`Slants it` },
-  { id: 'change_count', label: m`Count`, help: m`More or fewer of the row` },
-  { id: 'change_delta', label: m`Spacing`, help: m`Sets the row wider or closer` },
-  { id: 'keep_fixed', label: m`Keep`, help: m`Keeps it as it is` },
-];
-
+const operators = Object.keys(operatorWords) as (keyof typeof operatorWords)[];
 const kindsOf = { face: m`Faces`, edge: m`Edges`, corner: m`Corners` } as const;
 
 const countAnchors: readonly [Anchor, Sentence][] = [
@@ -75,8 +56,9 @@ export function SeedFields({ shape, choice, nothing, onChange }: Props) {
   const { op, part, feature, direction, origin, anchor } = choice;
   const group = useId();
   const canBeGroup = groupOfPart(shape, part) !== undefined;
-  const needsDirection = ['translate', 'scale_1d', 'scale_2d', 'rotate', 'shear'].includes(op);
-  const needsOrigin = ['scale_1d', 'scale_2d', 'scale_3d', 'rotate', 'shear'].includes(op);
+  const fields = isGroupOperator(op) || op === 'keep_fixed' ? {} : fieldsOf(op);
+  const needsDirection = directionField(fields) !== undefined;
+  const needsOrigin = 'origin' in fields;
   const straight = 'part' in direction ? null : direction.filter((v) => v !== 0).length === 1;
   const ownOrigin = 'part' in origin && (origin.part === part || origin.part === '');
   return (
@@ -97,21 +79,21 @@ export function SeedFields({ shape, choice, nothing, onChange }: Props) {
         </select>
       </label>
       <div class="operators" role="radiogroup" aria-label={t`What to do with it`}>
-        {operators.map(({ id, label, help }) => (
-          <label key={id} class="chip" title={t(help)}>
+        {operators.map((id) => (
+          <label key={id} class="chip" title={t(operatorWords[id].help)}>
             <input
               type="radio"
               name={`operator ${group}`}
               value={id}
               checked={op === id}
-              disabled={isOfGroup(id) && !canBeGroup}
+              disabled={isGroupOperator(id) && !canBeGroup}
               onChange={() => onChange({ ...choice, op: id, amount: null, normal: null })}
             />
-            <span>{t(label)}</span>
+            <span>{t(operatorWords[id].label)}</span>
           </label>
         ))}
       </div>
-      {!isOfGroup(op) && op !== 'keep_fixed' && (
+      {!isGroupOperator(op) && op !== 'keep_fixed' && (
         <div class="field">
           <span>{t`What`}</span>
           <FeatureSelect
@@ -124,7 +106,7 @@ export function SeedFields({ shape, choice, nothing, onChange }: Props) {
       )}
       {needsDirection && (
         <label>
-          <span>{op === 'rotate' ? t`About` : op === 'scale_2d' ? t`Across` : t`Along`}</span>
+          <span>{'axis' in fields ? t`About` : 'direction' in fields ? t`Along` : t`Across`}</span>
           <select
             aria-label={t`Direction`}
             value={straight && !('part' in direction) ? mostAlong(direction) : 'other'}

@@ -1,8 +1,10 @@
 // A seed edit as a form holds it: one value for every field that some operator has, so that changing the operator
 // forgets nothing.
+import { directionField, fieldsOf, isGroupOperator } from '../program/operators';
 import {
   type Anchor,
   type DirectionReference,
+  type GeometricStatement,
   isGroup,
   type LocalTriple,
   type PointReference,
@@ -20,7 +22,7 @@ export interface SeedChoice {
   readonly feature: LocalTriple;
   /** Direction, axis or normal, whichever the operator takes. */
   readonly direction: DirectionReference;
-  /** For shear; null: what goes with the direction. */
+  /** Of an operator that takes both; null: what goes with the direction. */
   readonly normal: DirectionReference | null;
   readonly origin: PointReference;
   readonly anchor: Anchor;
@@ -43,12 +45,9 @@ export const firstChoice: SeedChoice = {
 export const groupOfPart = (shape: Shape, part: string) =>
   shape.relations.filter(isGroup).find((relation) => relation.parent === part || relation.parts.includes(part));
 
-export const isOfGroup = (op: Operator): op is 'change_count' | 'change_delta' =>
-  op === 'change_count' || op === 'change_delta';
-
 /** Whether a form has all that the edit needs. */
 export const isWhole = (shape: Shape, { op, part }: SeedChoice): boolean =>
-  part !== '' && (!isOfGroup(op) || groupOfPart(shape, part) !== undefined);
+  part !== '' && (!isGroupOperator(op) || groupOfPart(shape, part) !== undefined);
 
 /** The same edit of another part: what was told by the old part is told by the new one. */
 export function withPart(shape: Shape, choice: SeedChoice, part: string): SeedChoice {
@@ -56,7 +55,7 @@ export function withPart(shape: Shape, choice: SeedChoice, part: string): SeedCh
   return {
     ...choice,
     part,
-    op: isOfGroup(choice.op) && groupOfPart(shape, part) === undefined ? 'translate' : choice.op,
+    op: isGroupOperator(choice.op) && groupOfPart(shape, part) === undefined ? 'translate' : choice.op,
     origin: isOld(choice.origin) ? { ...choice.origin, part } : choice.origin,
     direction: isOld(choice.direction) ? { ...choice.direction, part } : choice.direction,
     normal: choice.normal !== null && isOld(choice.normal) ? { ...choice.normal, part } : choice.normal,
@@ -67,32 +66,27 @@ export function withPart(shape: Shape, choice: SeedChoice, part: string): SeedCh
 export function seedOf(shape: Shape, choice: SeedChoice): Statement {
   const { op, part, feature, direction, origin, anchor } = choice;
   const amount = choice.amount ?? 'x';
-  switch (op) {
-    case 'translate':
-      return { op, part, feature, direction, amount };
-    case 'rotate':
-      return { op, part, feature, origin, axis: direction, amount };
-    case 'scale_1d':
-      return { op, part, feature, origin, direction, amount };
-    case 'scale_2d':
-      return { op, part, feature, origin, normal: direction, amount };
-    case 'scale_3d':
-      return { op, part, feature, origin, amount };
-    case 'shear': {
-      // Slants along the direction, more so higher up; what slants upwards does so from front to back.
-      const upwards = 'part' in direction ? direction.axis === 1 : mostAlong(direction) === 1;
-      return { op, part, feature, origin, normal: choice.normal ?? axes[upwards ? 2 : 1], direction, amount };
-    }
-    case 'keep_fixed':
-      return { op, part };
-    case 'change_count':
-    case 'change_delta': {
-      const relation = groupOfPart(shape, part)?.id ?? '';
-      // x is about ±0.35 and a count is rounded down: whole instances need a larger factor
-      if (op === 'change_count') return { op, relation, anchor, amount: choice.amount ?? '10*x' };
-      return { op, relation, anchor: anchor === 'fit' ? 'middle' : anchor, amount };
-    }
+  if (op === 'keep_fixed') return { op, part };
+  if (isGroupOperator(op)) {
+    const relation = groupOfPart(shape, part)?.id ?? '';
+    // x is about ±0.35 and a count is rounded down: whole instances need a larger factor
+    if (op === 'change_count') return { op, relation, anchor, amount: choice.amount ?? '10*x' };
+    return { op, relation, anchor: anchor === 'fit' ? 'middle' : anchor, amount };
   }
+  const fields = fieldsOf(op);
+  const own = directionField(fields);
+  // Slants along the direction, more so higher up; what slants upwards does so from front to back.
+  const upwards = 'part' in direction ? direction.axis === 1 : mostAlong(direction) === 1;
+  const seed = {
+    op,
+    part,
+    feature,
+    ...('origin' in fields ? { origin } : {}),
+    ...('normal' in fields ? { normal: choice.normal ?? axes[upwards ? 2 : 1] } : {}),
+    ...(own === undefined ? {} : { [own]: direction }),
+    amount,
+  };
+  return seed as GeometricStatement; // with the fields that the table gives the operator
 }
 
 /** The form of a seed edit: seedOf() gives it back. */
@@ -106,14 +100,14 @@ export function choiceOf(shape: Shape, seed: Statement): SeedChoice {
   const choice = { ...firstChoice, op, part, origin: { part, at: [0, 0, 0] } as const };
   if (seed.op === 'keep_fixed') return choice;
   const { feature, amount } = seed;
+  const given: Readonly<Record<string, unknown>> = { ...seed };
+  const own = directionField(fieldsOf(seed.op));
   return {
     ...choice,
     feature,
     amount,
     ...('origin' in seed ? { origin: seed.origin } : {}),
-    ...('direction' in seed ? { direction: seed.direction } : {}),
-    ...('axis' in seed ? { direction: seed.axis } : {}),
-    ...(seed.op === 'scale_2d' ? { direction: seed.normal } : {}),
-    ...(seed.op === 'shear' ? { normal: seed.normal } : {}),
+    ...(own === undefined ? {} : { direction: given[own] as DirectionReference }),
+    ...('normal' in seed && own !== 'normal' ? { normal: seed.normal } : {}),
   };
 }

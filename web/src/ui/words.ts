@@ -2,6 +2,7 @@
 
 import { compileAmount } from '../program/compile';
 import { parametersOf } from '../program/domain';
+import type { Hint } from '../program/operators';
 import { parseAmount } from '../program/parse';
 import {
   type DirectionReference,
@@ -18,7 +19,7 @@ import {
 } from '../program/types';
 import { type Document, nameOf, type Side } from '../session/document';
 import { mostAlong } from '../session/measure';
-import { listed, m, plural, t } from '../texts/texts';
+import { listed, m, plural, type Sentence, t } from '../texts/texts';
 
 const faces = [
   [m`right@face`, m`left@face`],
@@ -256,7 +257,20 @@ export function keptWords(reports: readonly RelationReport[]): string {
   );
 }
 
-export const hintWords = {
+/** What operators are called where one is chosen, in that order. */
+export const operatorWords: Readonly<Record<Statement['op'], { readonly label: Sentence; readonly help: Sentence }>> = {
+  translate: { label: m`Move`, help: m`Moves it along a direction` },
+  scale_1d: { label: m`Stretch`, help: m`Stretches it along one direction` },
+  scale_2d: { label: m`Thicken`, help: m`Grows it in the two directions across one` },
+  scale_3d: { label: m`Grow`, help: m`Grows it in all directions` },
+  rotate: { label: m`Tilt`, help: m`Turns it about an axis` },
+  shear: { label: m`Slant`, help: m`Slants it` },
+  change_count: { label: m`Count`, help: m`More or fewer of the row` },
+  change_delta: { label: m`Spacing`, help: m`Sets the row wider or closer` },
+  keep_fixed: { label: m`Keep`, help: m`Keeps it as it is` },
+};
+
+export const hintWords: Readonly<Record<Hint, Sentence>> = {
   translate: m`should move`,
   rotate: m`should tilt`,
   scale: m`should stretch`,
@@ -264,4 +278,4 @@ export const hintWords = {
   change_count: m`should change its count`,
   change_delta: m`should change its spacing`,
   keep_fixed: m`should stay`,
-} as const;
+};
