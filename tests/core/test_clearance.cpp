@@ -45,9 +45,8 @@ TEST_CASE("parts that come apart are named once, with the first step at which it
 TEST_CASE("parts that run into each other are seen on either side of the range") {
   const Shape shape = hand::chair();
   for (const double sign : {-1.0, 1.0}) {
-    const auto faults =
-        seen(shape, {statement(Op::translate, "leg_left", -sign * Vec3::UnitX(), "x1")}, sign < 0 ? -0.58 : 0,
-             sign < 0 ? 0 : 0.58);
+    const auto faults = seen(shape, {statement(Op::translate, "leg_left", -sign * Vec3::UnitX(), "x1")},
+                             sign < 0 ? -0.58 : 0, sign < 0 ? 0 : 0.58);
     bool met = false;
     for (const SeenFault& fault : faults) {
       const bool is_legs = std::set<std::string>{fault.a, fault.b} == std::set<std::string>{"leg_left", "leg_right"};
