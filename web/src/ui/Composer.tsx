@@ -20,14 +20,15 @@ import {
   unmention,
 } from '../session/requests';
 import { document, selection } from '../session/session';
+import { suggestions } from '../session/suggestions';
 import { price, t } from '../texts/texts';
 import { AskFailure } from './AskFailure';
 import { dialog } from './actions';
 import { Icon } from './Icon';
+import { paintNumbered } from './pictures';
 import { ReadingCard } from './ReadingCard';
 import { useRecorded } from './recorded';
 import { SidesLine } from './SidesSwitch';
-import { suggestSliders } from './SuggestPanel';
 import { useStandsBelow } from './window_bottom';
 
 const maxLength = 1000;
@@ -105,7 +106,7 @@ export function Composer({ picking }: { picking: boolean }) {
           aria-label={t`Suggest sliders`}
           title={t`Suggest sliders for this model`}
           disabled={models.value === null}
-          onClick={suggestSliders}
+          onClick={() => void suggestions.start({ task: 'procedural_requests' }, paintNumbered)}
         >
           <Icon name="sparkle" />
           <span>{t`Suggest sliders`}</span>

@@ -8,6 +8,7 @@ import { editsOf } from '../session/family_state';
 import { loadGallery, type Suggestion } from '../session/gallery';
 import { playOnce } from '../session/play';
 import { compiled, document, propagate, task } from '../session/session';
+import { suggestions } from '../session/suggestions';
 import { t } from '../texts/texts';
 import { showText } from './actions';
 import { CardList } from './CardList';
@@ -15,12 +16,14 @@ import { CardTools } from './CardTools';
 import { HandPanel } from './HandPanel';
 import { Icon } from './Icon';
 import { KeepEdited } from './KeepVariation';
+import { lazily } from './lazily';
 import { OffersPanel } from './OffersPanel';
 import { useRecorded } from './recorded';
 import { StackVerdict } from './StackVerdict';
-import { SuggestPanel } from './SuggestPanel';
 import { Together } from './Together';
 import type { FeatureKind } from './words';
+
+const SuggestPanel = lazily(async () => (await import('./SuggestPanel')).SuggestPanel);
 
 interface EditsProps {
   /** Null while the edit by hand is closed. */
@@ -58,7 +61,7 @@ export function EditsPanel({ pickKind }: EditsProps) {
       <StackVerdict />
       {layers.length > 0 && <Together />}
       {layers.length > 0 && <KeepEdited />}
-      <SuggestPanel />
+      {suggestions.asked.value !== null && <SuggestPanel />}
       {pickKind.value === null ? (
         <>
           <OffersPanel />

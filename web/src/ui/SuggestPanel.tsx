@@ -10,11 +10,10 @@ import { suggestions } from '../session/suggestions';
 import { price, t } from '../texts/texts';
 import { AskFailure } from './AskFailure';
 import { Icon } from './Icon';
-import { drawStrips, paintNumbered } from './pictures';
+import { drawStrips } from './pictures';
 import { SuggestCard } from './SuggestCard';
 
-export const suggestSliders = (): void => void suggestions.start({ task: 'procedural_requests' }, paintNumbered);
-
+/** Nothing while nothing is asked for. */
 export function SuggestPanel() {
   const section = useRef<HTMLElement>(null);
   useEffect(() => drawStrips(suggestions), []);
