@@ -23,7 +23,7 @@ describe('an import', () => {
     ['program/parse.ts', "import type { Document } from '../session/document';", /program reads/],
     ['scene/stage.ts', "import { document } from '../session/session';", /scene draws what it is given/],
     ['llm/http.ts', "import { parse } from '../program/parse';", /llm asks language models/],
-    ['formats/obj.ts', "import { loadModel } from '../scene/load';", /formats makes a GLB/],
+    ['formats/obj.ts', "import { loadModel } from '../scene/load';", /formats makes GLBs of files/],
     ['session/files.ts', "import { render } from 'preact';", /without a single element/],
     ['ui/App.tsx', "import { get } from 'idb-keyval';", /done in their rooms/],
     ['ui/App.tsx', "  await import('fflate');", /done in their rooms/],

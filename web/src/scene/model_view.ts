@@ -69,6 +69,8 @@ export class ModelView {
       geometry.instanceCount = 1;
       for (const material of [loadedMesh.mesh.material].flat()) {
         if (!patched.has(material)) followCage(material, this.cage.uniform, true);
+        // What faces the light would shade itself, where both sides are drawn.
+        if (material.side === three.DoubleSide) material.shadowSide = three.BackSide;
         patched.add(material);
       }
       const mesh = new three.Mesh(geometry, loadedMesh.mesh.material as three.Material);

@@ -29,6 +29,7 @@ export class Stage {
   #insets: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
   #frame = 0;
   #hasMetal = false;
+  #room: three.Texture | null = null;
   /** A model was shown, and only its own shaders are compiled. */
   #isCold = false;
   #actor: Actor | null = null;
@@ -79,6 +80,7 @@ export class Stage {
       this.onContext(true);
     });
     canvas.addEventListener('webglcontextrestored', () => {
+      this.#room = null; // it was lost as well
       this.#reflect();
       this.onContext(false);
       this.invalidate();
@@ -98,10 +100,8 @@ export class Stage {
     this.#isCold = true;
     const materials = loaded.meshes.flatMap(({ mesh }) => mesh.material);
     const isMetal = (material: three.Material) => (material as three.MeshStandardMaterial).metalness > 0.1;
-    if (!this.#hasMetal && materials.some(isMetal)) {
-      this.#hasMetal = true;
-      this.#reflect();
-    }
+    this.#hasMetal = materials.some(isMetal);
+    this.#reflect();
     return actor;
   }
 
@@ -335,13 +335,15 @@ export class Stage {
     idle(() => void (this.#actor === actor && this.pick(0, 0)));
   }
 
-  /** A room for metals to mirror. Filtering it takes a software renderer seconds, so only models with metal get it. */
+  /** A room for metals to mirror. Filtering it takes a software renderer seconds, so only models with metal get it, whatever was shown before. */
   #reflect(): void {
-    if (!this.#hasMetal) return;
-    const generator = new three.PMREMGenerator(this.#renderer);
-    this.#scene.environment = generator.fromScene(new RoomEnvironment(), 0.04, 0.1, 100, { size: 64 }).texture;
+    if (this.#hasMetal && this.#room === null) {
+      const generator = new three.PMREMGenerator(this.#renderer);
+      this.#room = generator.fromScene(new RoomEnvironment(), 0.04, 0.1, 100, { size: 64 }).texture;
+      generator.dispose();
+    }
+    this.#scene.environment = this.#hasMetal ? this.#room : null;
     this.#scene.environmentIntensity = 0.35;
-    generator.dispose();
   }
 
   #resize(): void {
