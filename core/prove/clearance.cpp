@@ -104,6 +104,7 @@ Clearance::Clearance(const Shape& shape, const Program& program, std::size_t lay
 
 std::set<RelationIndex> Clearance::meant_to_part(const std::set<std::string>& disabled) const {
   std::set<RelationIndex> parting;
+  if (disabled.empty()) return parting;
   const State moved = state_at(looked_at);
   for (const RelationIndex r : shape_.relations.indices()) {
     const Relation& loose = shape_.relations[r];
